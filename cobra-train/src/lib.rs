@@ -1,0 +1,1 @@
+//! Trains, evaluates and applies COBRA shape templates.
