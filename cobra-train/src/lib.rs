@@ -1,1 +1,3 @@
 //! Trains, evaluates and applies COBRA shape templates.
+
+pub mod surface;

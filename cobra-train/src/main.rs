@@ -1,1 +1,2 @@
+//! The command `cobra`.
 fn main() {}

@@ -1,0 +1,5 @@
+//! The object's surface: where it comes from and how points on it are drawn.
+
+mod mesh;
+
+pub use mesh::{BoundingSphere, Mesh, MeshError};
