@@ -1,3 +1,80 @@
 //! Scores 6D object poses against a Gaussian-process shape template.
+//!
+//! A pose estimator says "the object is at pose T". This crate asks whether what the camera saw,
+//! put back into the object's frame through T, lies on the object's surface, and answers with a
+//! confidence, a threshold and a decision. It is everything that runs on the robot and nothing
+//! else: no standard library, no allocator, no `unsafe`, no operating system.
+//!
+//! The method is that of "COBRA - COnfidence score Based on shape Regression Analysis for quality
+//! assessment of object pose estimation"; equation numbers in this documentation are the paper's,
+//! in order of appearance.
+//!
+//! | module | owns |
+//! |---|---|
+//! | [`template`] | the wire format: validation, the zero-copy view, the encoder |
+//! | [`kernel`] | covariance functions |
+//! | [`gp`] | the posterior mean over borrowed arrays, and its order of summation |
+//! | [`camera`] | pinhole intrinsics and back-projection |
+//! | [`pose`] | rotation and translation, checked |
+//! | [`mixture`] | the likelihood of one object-frame point under a template |
+//! | [`score`] | the streaming scorer, the confidence of Eq. 10, the decision |
+//! | [`bound`] | the threshold of Eq. 11 |
+//! | [`tolerance`] | every tolerance this crate applies, in one table |
+//! | [`math`] | the only place that knows `libm` |
+//!
+//! # Example
+//! ```
+//! use cobra_infer::{Camera, Correspondence, Decision, Pose, Scorer, Settings, Template};
+//! # fn run(flash: &[u8], stream: &[Correspondence]) -> Result<(), Box<dyn core::error::Error>> {
+//! let template = Template::from_bytes(flash)?;
+//! let camera = Camera::new(423.9, 423.1, 318.7, 243.0)?;
+//! let pose = Pose::from_row_major([1., 0., 0., 0., 1., 0., 0., 0., 1.], [0., 0., 500.])?;
+//! let settings = Settings::with_delta(2.0);
+//! // 16: the most components that this controller makes room for.
+//! let mut scorer = Scorer::<16>::new(&template, &camera, &pose, &settings)?;
+//! for correspondence in stream {
+//!     scorer.push(correspondence);
+//! }
+//! let report = scorer.finish();
+//! if report.decision == Decision::Accept {
+//!     // grasp
+//! }
+//! # Ok(()) }
+//! ```
 #![no_std]
 #![forbid(unsafe_code)]
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::panic,
+        clippy::unreachable
+    )
+)]
+
+#[cfg(test)]
+extern crate std;
+
+pub mod bound;
+pub mod camera;
+mod error;
+pub mod gp;
+pub mod kernel;
+pub mod math;
+pub mod mixture;
+pub mod pose;
+pub mod score;
+pub mod template;
+pub mod tolerance;
+mod unit;
+
+pub use camera::{Camera, Correspondence};
+pub use error::{CameraError, EncodeError, PoseError, ScoreError, Section, TemplateError};
+pub use kernel::{Exponent, Kernel, Metric};
+pub use mixture::{Assignment, Likelihood, Mixture, Settings, Sigma};
+pub use pose::Pose;
+pub use score::{Decision, Doubt, Rejection, Report, Scorer, score};
+pub use template::Template;
+pub use unit::Unit;

@@ -1,0 +1,217 @@
+//! Pinhole intrinsics, correspondences, and back-projection.
+//!
+//! Owns the step from a pixel to a point in the object's frame. Lens distortion is not modelled:
+//! a camera that has it is refused, because undistorting points is the vision library's work.
+//!
+//! Pixel centres are at integers: the pixel in column 3 and row 5 is the point (3, 5), the
+//! convention of OpenCV and BOP.
+
+use crate::error::CameraError;
+use crate::math;
+use crate::pose::Pose;
+use nalgebra::{Point2, Point3, Vector3};
+
+/// Intrinsics of a pinhole camera: (x, y) ↦ (fx·x + s·y + cx, fy·y + cy), in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    fx: f32,
+    fy: f32,
+    cx: f32,
+    cy: f32,
+    skew: f32,
+}
+
+/// One observed pixel, the object point that the estimator assigns to it, and its weight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correspondence {
+    /// The observed pixel, pixel centres at integers.
+    pub pixel: Point2<f32>,
+    /// The point on the object, in the object's frame and the template's unit.
+    pub point: Point3<f32>,
+    /// The weight wᵢ ≥ 0 of Eq. 10 before normalisation; 1 for every point is the paper's 1/N.
+    pub weight: f32,
+}
+
+impl Correspondence {
+    /// A correspondence of weight 1.
+    #[must_use]
+    pub fn new(pixel: Point2<f32>, point: Point3<f32>) -> Self {
+        Self {
+            pixel,
+            point,
+            weight: 1.0,
+        }
+    }
+
+    /// Whether every number in it is finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.pixel.iter().all(|c| c.is_finite())
+            && self.point.iter().all(|c| c.is_finite())
+            && self.weight.is_finite()
+    }
+}
+
+/// A point put back into the object's frame through a pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BackProjection {
+    /// P̂, in the object's frame.
+    pub point: Point3<f32>,
+    /// λ, its depth along the camera's axis, in the template's unit.
+    pub depth: f32,
+}
+
+impl Camera {
+    /// Focal lengths and principal point, in pixels, without skew.
+    ///
+    /// # Errors
+    /// [`CameraError::NotFinite`]; [`CameraError::FocalLength`] when a focal length is not positive.
+    pub fn new(fx: f32, fy: f32, cx: f32, cy: f32) -> Result<Self, CameraError> {
+        Self::from_matrix([fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0])
+    }
+
+    /// The row-major matrix K = (fx s cx; 0 fy cy; 0 0 1).
+    ///
+    /// # Errors
+    /// [`CameraError::NotFinite`]; [`CameraError::FocalLength`] when a focal length is not positive;
+    /// [`CameraError::Shape`] when an entry below the diagonal is not 0 or the last is not 1.
+    pub fn from_matrix(k: [f32; 9]) -> Result<Self, CameraError> {
+        for (index, entry) in k.iter().enumerate() {
+            if !entry.is_finite() {
+                return Err(CameraError::NotFinite {
+                    row: index / 3,
+                    column: index % 3,
+                });
+            }
+        }
+        let [fx, skew, cx, k10, fy, cy, k20, k21, k22] = k;
+        if k10 != 0.0 || k20 != 0.0 || k21 != 0.0 || k22 != 1.0 {
+            return Err(CameraError::Shape {
+                below: [k10, k20, k21],
+                last: k22,
+            });
+        }
+        for (name, value) in [("fx", fx), ("fy", fy)] {
+            // A focal length so small that its inverse overflows is no focal length either.
+            if value < f32::MIN_POSITIVE {
+                return Err(CameraError::FocalLength { name, value });
+            }
+        }
+        Ok(Self {
+            fx,
+            fy,
+            cx,
+            cy,
+            skew,
+        })
+    }
+
+    /// Accepts a distortion model only when it distorts nothing.
+    ///
+    /// # Errors
+    /// [`CameraError::Distorted`] when a coefficient is not 0 (NaN included).
+    pub fn with_distortion(self, coefficients: &[f32]) -> Result<Self, CameraError> {
+        match coefficients.iter().enumerate().find(|(_, c)| **c != 0.0) {
+            Some((index, value)) => Err(CameraError::Distorted {
+                index,
+                value: *value,
+            }),
+            None => Ok(self),
+        }
+    }
+
+    /// K⁻¹p: the ray through a pixel, scaled to z = 1.
+    #[must_use]
+    pub fn ray(&self, pixel: &Point2<f32>) -> Vector3<f32> {
+        let y = (pixel.y - self.cy) / self.fy;
+        let x = ((pixel.x - self.cx) - self.skew * y) / self.fx;
+        Vector3::new(x, y, 1.0)
+    }
+
+    /// The pixel that a point of the camera's frame falls on; `None` when it does not lie in front
+    /// of the camera.
+    #[must_use]
+    pub fn project(&self, point: &Point3<f32>) -> Option<Point2<f32>> {
+        if point.z.is_nan() || point.z <= 0.0 {
+            return None;
+        }
+        let (x, y) = (point.x / point.z, point.y / point.z);
+        Some(Point2::new(
+            self.fx * x + self.skew * y + self.cx,
+            self.fy * y + self.cy,
+        ))
+    }
+
+    /// Puts a pixel back into the object's frame: the point on the pixel's ray that is closest to
+    /// RP + t.
+    ///
+    /// λ = ((K⁻¹p)ᵀ(RP + t)) / ‖K⁻¹p‖², P̂ = Rᵀ(λK⁻¹p − t), λ being the depth. Where λ ≤ 0 the
+    /// point lies behind the camera; the result is still returned, and it is not finite where
+    /// the arithmetic overflows.
+    #[must_use]
+    pub fn back_project(
+        &self,
+        pose: &Pose,
+        pixel: &Point2<f32>,
+        point: &Point3<f32>,
+    ) -> BackProjection {
+        let ray = self.ray(pixel);
+        let ray = [ray.x, ray.y, ray.z];
+        let seen = pose.to_camera(point);
+        let depth = math::dot(ray, [seen.x, seen.y, seen.z]) / math::dot(ray, ray);
+        let [x, y, z] = ray;
+        BackProjection {
+            point: pose.to_object(&Point3::new(depth * x, depth * y, depth * z)),
+            depth,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_projected_point_comes_back_to_where_it_was() {
+        let camera = Camera::from_matrix([420., 0.7, 310., 0., 430., 250., 0., 0., 1.]).unwrap();
+        let pose =
+            Pose::from_row_major([0., -1., 0., 1., 0., 0., 0., 0., 1.], [10., -20., 400.]).unwrap();
+        let point = Point3::new(31., -7., 22.);
+        let pixel = camera.project(&pose.to_camera(&point)).unwrap();
+        let back = camera.back_project(&pose, &pixel, &point);
+        assert!((back.point - point).norm() < 1e-3);
+        assert!((back.depth - 422.).abs() < 1e-2);
+    }
+
+    #[test]
+    fn a_focal_length_of_zero_is_refused_by_name() {
+        assert_eq!(
+            Camera::new(400., 0., 320., 240.),
+            Err(CameraError::FocalLength {
+                name: "fy",
+                value: 0.
+            })
+        );
+    }
+
+    #[test]
+    fn a_distorted_camera_is_told_to_undistort_first() {
+        let camera = Camera::new(400., 400., 320., 240.).unwrap();
+        assert!(camera.with_distortion(&[0.0; 5]).is_ok());
+        let error = camera.with_distortion(&[0.0, -0.12]).unwrap_err();
+        assert!(std::format!("{error}").contains("undistort"));
+        assert!(camera.with_distortion(&[f32::NAN]).is_err());
+    }
+
+    #[test]
+    fn a_matrix_that_is_no_intrinsic_matrix_is_refused() {
+        assert!(matches!(
+            Camera::from_matrix([400., 0., 320., 0., 400., 240., 0., 0., 2.]),
+            Err(CameraError::Shape { .. })
+        ));
+        assert!(matches!(
+            Camera::from_matrix([400., 0., f32::NAN, 0., 400., 240., 0., 0., 1.]),
+            Err(CameraError::NotFinite { row: 0, column: 2 })
+        ));
+    }
+}

@@ -1,0 +1,176 @@
+//! The posterior mean of a Gaussian process over borrowed arrays.
+//!
+//! Owns the sum μ(u) = m + Σᵢ wᵢ k(u, uᵢ) (Eq. 5 with w = K⁻¹(d − m) precomputed) and the order in
+//! which it is added, which is part of the template format. Does not own where the arrays lie
+//! ([`crate::template`]).
+//!
+//! # Order of summation
+//! Term i goes to accumulator i mod 8. Within an accumulator terms are added by rising i, starting
+//! from +0. The mean is m + (((a₀+a₁)+(a₂+a₃)) + ((a₄+a₅)+(a₆+a₇))). A term is
+//! wᵢ·k(s), with s = (Δx² + Δy²) + Δz² from the differences of the direction's coordinates: the
+//! form 2 − 2u·uᵢ cancels where the fit is exact. This is what vector code on the host and scalar
+//! code on a controller both compute.
+
+use crate::kernel::{
+    Covariance, Exponent, Kernel, RationalQuadraticFree, RationalQuadraticHalf,
+    RationalQuadraticOne,
+};
+use crate::math;
+use nalgebra::{Unit, Vector3};
+
+/// How many accumulators the sum is interleaved over.
+pub const LANES: usize = 8;
+
+/// A direction: a unit vector.
+pub type UnitDirection = Unit<Vector3<f32>>;
+
+/// A little-endian `f32` as it lies in a template.
+pub type Word = [u8; 4];
+
+/// The directions and weights of one component: four borrowed arrays of the same length, each a
+/// run of little-endian `f32`, at any alignment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Terms<'a> {
+    x: &'a [Word],
+    y: &'a [Word],
+    z: &'a [Word],
+    weights: &'a [Word],
+}
+
+impl<'a> Terms<'a> {
+    pub(crate) const EMPTY: Self = Self {
+        x: &[],
+        y: &[],
+        z: &[],
+        weights: &[],
+    };
+
+    /// Splits `words` into its four equal parts: all x, all y, all z, all weights. `None` when the
+    /// length is not a multiple of four.
+    #[must_use]
+    pub fn from_words(words: &'a [Word]) -> Option<Self> {
+        let count = words.len() / 4;
+        let (x, rest) = words.split_at_checked(count)?;
+        let (y, rest) = rest.split_at_checked(count)?;
+        let (z, weights) = rest.split_at_checked(count)?;
+        (weights.len() == count).then_some(Self { x, y, z, weights })
+    }
+
+    /// How many terms there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Whether there is no term.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    /// The terms one by one: direction and weight.
+    pub fn iter(&self) -> impl Iterator<Item = ([f32; 3], f32)> + use<'a> {
+        let read = |word: &Word| f32::from_le_bytes(*word);
+        self.x
+            .iter()
+            .zip(self.y)
+            .zip(self.z)
+            .zip(self.weights)
+            .map(move |(((x, y), z), w)| ([read(x), read(y), read(z)], read(w)))
+    }
+}
+
+/// The hyperparameters of one component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hyperparameters {
+    /// l > 0, in units of the chord.
+    pub length_scale: f32,
+    /// α > 0; what the kernel fixes, where it fixes one.
+    pub exponent: f32,
+    /// The prior mean m, in the template's unit.
+    pub prior_mean: f32,
+}
+
+/// The posterior mean in direction `u`, in the template's unit.
+///
+/// `kernel` says which covariance function; the order of summation is the module's.
+#[must_use]
+pub fn posterior_mean(
+    kernel: Kernel,
+    hyperparameters: &Hyperparameters,
+    terms: &Terms<'_>,
+    u: &UnitDirection,
+) -> f32 {
+    let l = hyperparameters.length_scale;
+    let sum = match kernel {
+        Kernel::RationalQuadratic(Exponent::One) => {
+            weighted_sum(RationalQuadraticOne::new(l), terms, u)
+        }
+        Kernel::RationalQuadratic(Exponent::Half) => {
+            weighted_sum(RationalQuadraticHalf::new(l), terms, u)
+        }
+        Kernel::RationalQuadratic(Exponent::Free) => weighted_sum(
+            RationalQuadraticFree::new(l, hyperparameters.exponent),
+            terms,
+            u,
+        ),
+    };
+    hyperparameters.prior_mean + sum
+}
+
+fn weighted_sum<K: Covariance<f32>>(kernel: K, terms: &Terms<'_>, u: &UnitDirection) -> f32 {
+    let [ux, uy, uz] = [u.x, u.y, u.z];
+    let mut lanes = [0.0_f32; LANES];
+    let (xs, x_tail) = terms.x.as_chunks::<LANES>();
+    let (ys, y_tail) = terms.y.as_chunks::<LANES>();
+    let (zs, z_tail) = terms.z.as_chunks::<LANES>();
+    let (ws, w_tail) = terms.weights.as_chunks::<LANES>();
+    let accumulate = |lane: &mut f32, x: f32, y: f32, z: f32, w: f32| {
+        let (dx, dy, dz) = (ux - x, uy - y, uz - z);
+        *lane += w * kernel.at((dx * dx + dy * dy) + dz * dz);
+    };
+    for (((x, y), z), w) in xs.iter().zip(ys).zip(zs).zip(ws) {
+        let (x, y, z, w) = (floats(x), floats(y), floats(z), floats(w));
+        for ((((lane, x), y), z), w) in lanes.iter_mut().zip(x).zip(y).zip(z).zip(w) {
+            accumulate(lane, x, y, z, w);
+        }
+    }
+    let read = |word: &Word| f32::from_le_bytes(*word);
+    for ((((lane, x), y), z), w) in lanes
+        .iter_mut()
+        .zip(x_tail)
+        .zip(y_tail)
+        .zip(z_tail)
+        .zip(w_tail)
+    {
+        accumulate(lane, read(x), read(y), read(z), read(w));
+    }
+    let [a0, a1, a2, a3, a4, a5, a6, a7] = lanes;
+    ((a0 + a1) + (a2 + a3)) + ((a4 + a5) + (a6 + a7))
+}
+
+#[inline(always)]
+fn floats(words: &[Word; LANES]) -> [f32; LANES] {
+    words.map(f32::from_le_bytes)
+}
+
+/// The direction from `origin` to `point` and the distance between them.
+///
+/// `None` when the distance is not a finite number above `smallest`: such a point has no direction.
+#[must_use]
+pub fn direction_and_distance(
+    point: [f32; 3],
+    origin: [f32; 3],
+    smallest: f32,
+) -> Option<(UnitDirection, f32)> {
+    use crate::math::Real;
+    let [px, py, pz] = point;
+    let [ox, oy, oz] = origin;
+    let (x, y, z) = (px - ox, py - oy, pz - oz);
+    let distance = math::dot([x, y, z], [x, y, z]).square_root();
+    if !(distance > smallest && distance.is_finite()) {
+        return None;
+    }
+    let u = Vector3::new(x / distance, y / distance, z / distance);
+    Some((Unit::new_unchecked(u), distance))
+}

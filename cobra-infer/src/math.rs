@@ -1,0 +1,147 @@
+//! The few numerical functions the crate needs, each with the same bits on every target.
+//!
+//! Owns all knowledge of `libm` and the sums whose order matters. Addition, subtraction,
+//! multiplication, division and the square root are correctly rounded by IEEE 754, so they agree
+//! everywhere; the transcendental functions agree because they are always `libm`'s own code, never
+//! the platform's.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// √(2π), the normaliser of the Gaussian density.
+pub const SQRT_TWO_PI: f32 = 2.506_628_3;
+
+/// The floating-point numbers that kernels are evaluated in: `f32` on the controller, `f64` in the
+/// trainer's Gram matrices.
+pub trait Real:
+    Copy
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// 1.
+    const ONE: Self;
+    /// 2.
+    const TWO: Self;
+    /// Square root, correctly rounded.
+    fn square_root(self) -> Self;
+    /// `self` raised to `power`.
+    fn power(self, power: Self) -> Self;
+}
+
+impl Real for f32 {
+    const ONE: Self = 1.0;
+    const TWO: Self = 2.0;
+    #[inline]
+    fn square_root(self) -> Self {
+        libm::sqrtf(self)
+    }
+    #[inline]
+    fn power(self, power: Self) -> Self {
+        libm::powf(self, power)
+    }
+}
+
+impl Real for f64 {
+    const ONE: Self = 1.0;
+    const TWO: Self = 2.0;
+    #[inline]
+    fn square_root(self) -> Self {
+        libm::sqrt(self)
+    }
+    #[inline]
+    fn power(self, power: Self) -> Self {
+        libm::pow(self, power)
+    }
+}
+
+/// eˣ.
+#[inline]
+#[must_use]
+pub fn exp(x: f32) -> f32 {
+    libm::expf(x)
+}
+
+/// eˣ − 1, accurate for small x.
+#[inline]
+#[must_use]
+pub fn exp_minus_one(x: f32) -> f32 {
+    libm::expm1f(x)
+}
+
+/// Natural logarithm.
+#[inline]
+#[must_use]
+pub fn ln(x: f32) -> f32 {
+    libm::logf(x)
+}
+
+/// Absolute value, by the sign bit alone.
+#[inline]
+#[must_use]
+pub fn abs(x: f32) -> f32 {
+    libm::fabsf(x)
+}
+
+/// (a₀b₀ + a₁b₁) + a₂b₂, in that order.
+///
+/// nalgebra's own products state no order of summation, and the bits of a score depend on it.
+#[inline]
+#[must_use]
+pub fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    let [a0, a1, a2] = a;
+    let [b0, b1, b2] = b;
+    (a0 * b0 + a1 * b1) + a2 * b2
+}
+
+/// Neumaier's compensated sum: the rounding error of a long stream of terms does not grow with its
+/// length.
+///
+/// Reference: A. Neumaier, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen,
+/// ZAMM 54 (1974).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CompensatedSum {
+    sum: f32,
+    lost: f32,
+}
+
+impl CompensatedSum {
+    /// Adds one term.
+    #[inline]
+    pub fn add(&mut self, term: f32) {
+        let sum = self.sum + term;
+        self.lost += if abs(self.sum) >= abs(term) {
+            (self.sum - sum) + term
+        } else {
+            (term - sum) + self.sum
+        };
+        self.sum = sum;
+    }
+
+    /// The sum so far.
+    #[inline]
+    #[must_use]
+    pub fn value(&self) -> f32 {
+        self.sum + self.lost
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::CompensatedSum;
+
+    #[test]
+    fn a_long_sum_of_tenths_loses_no_digits() {
+        let mut sum = CompensatedSum::default();
+        let mut plain = 0.0_f32;
+        for _ in 0..1_000_000 {
+            sum.add(0.1);
+            plain += 0.1;
+        }
+        let exact = 1.0e6 * f64::from(0.1_f32);
+        assert!((f64::from(sum.value()) - exact).abs() / exact < 1e-7);
+        assert!((f64::from(plain) - exact).abs() / exact > 1e-3);
+    }
+}

@@ -1,0 +1,289 @@
+//! The likelihood of one object-frame point under a template (Eqs. 8 and 9).
+//!
+//! Owns which component speaks for a point and how probable that component finds it. Averaging
+//! over points is the scorer's ([`crate::score`]).
+
+use crate::bound;
+use crate::error::ScoreError;
+use crate::gp;
+use crate::math::{self, Real, SQRT_TWO_PI};
+use crate::template::{Component, Template};
+use crate::tolerance;
+use heapless::Vec;
+use nalgebra::Point3;
+
+/// Which likelihood a residual e under standard deviation σ has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Likelihood {
+    /// exp(−e²/2σ²), between 0 and 1: what decisions use by default.
+    Peak,
+    /// The Gaussian density exp(−e²/2σ²)/(√(2π)σ) of Eq. 9, in 1/length.
+    Density,
+}
+
+/// Which component speaks for a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Assignment {
+    /// The one whose reference point is nearest; the first of equals.
+    Nearest,
+    /// The one that finds the point most probable (Eq. 10); the first of equals.
+    Maximum,
+}
+
+/// The standard deviation σ of a component's residual.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sigma {
+    /// σ² = σ̂_k² + σ_m², with σ_m ≥ 0 the measurement's own standard deviation, in the template's
+    /// unit.
+    Template {
+        /// σ_m.
+        noise: f32,
+    },
+    /// This σ > 0 for every component, in the template's unit.
+    Fixed(f32),
+}
+
+/// How points are scored.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Which likelihood.
+    pub likelihood: Likelihood,
+    /// Which component speaks for a point.
+    pub assignment: Assignment,
+    /// Which σ.
+    pub sigma: Sigma,
+    /// The tolerance δ > 0 of Eq. 11, in the template's unit.
+    pub delta: f32,
+    /// With fewer points than this the decision is undecided.
+    pub minimum_points: u32,
+}
+
+impl Settings {
+    /// The fewest points that a decision is made on unless the caller says otherwise: the mean of
+    /// ten peak likelihoods has a standard error of about 0.1.
+    pub const MINIMUM_POINTS: u32 = 10;
+
+    /// Peak likelihood, nearest component, the template's σ without measurement noise, and the
+    /// tolerance `delta` in the template's unit.
+    #[must_use]
+    pub const fn with_delta(delta: f32) -> Self {
+        Self {
+            likelihood: Likelihood::Peak,
+            assignment: Assignment::Nearest,
+            sigma: Sigma::Template { noise: 0.0 },
+            delta,
+            minimum_points: Self::MINIMUM_POINTS,
+        }
+    }
+
+    fn check(&self) -> Result<(), ScoreError> {
+        // The inverse of a smaller σ would not be finite.
+        let positive = |value: f32| value.is_finite() && value >= f32::MIN_POSITIVE;
+        if !positive(self.delta) {
+            return Err(ScoreError::Delta { found: self.delta });
+        }
+        match self.sigma {
+            Sigma::Fixed(sigma) if !positive(sigma) => Err(ScoreError::Sigma { found: sigma }),
+            Sigma::Template { noise } if !(noise.is_finite() && noise >= 0.0) => {
+                Err(ScoreError::Noise { found: noise })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What scoring keeps per component; everything else stays in the template.
+#[derive(Clone, Copy, Debug)]
+struct Prepared {
+    inverse_sigma: f32,
+    log_sigma: f32,
+    threshold: f32,
+}
+
+/// What the component that speaks for a point says of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Match {
+    /// Which component.
+    pub component: usize,
+    /// Distance of the point from the reference point.
+    pub distance: f32,
+    /// The posterior mean in the point's direction.
+    pub predicted: f32,
+    /// The point's likelihood.
+    pub likelihood: f32,
+}
+
+impl Match {
+    /// e = distance − posterior mean, in the template's unit; positive outside the surface as seen
+    /// from the reference point.
+    #[must_use]
+    pub fn residual(&self) -> f32 {
+        self.distance - self.predicted
+    }
+}
+
+/// One component's answer before it is turned into a likelihood.
+#[derive(Clone, Copy)]
+struct Prediction {
+    distance: f32,
+    predicted: f32,
+    half_square: f32,
+}
+
+/// A template with the settings it is used with, for at most `COMPONENTS` components.
+#[derive(Clone, Debug)]
+pub struct Mixture<'t, const COMPONENTS: usize> {
+    template: &'t Template<'t>,
+    likelihood: Likelihood,
+    assignment: Assignment,
+    smallest_distance: f32,
+    largest_threshold: f32,
+    prepared: Vec<Prepared, COMPONENTS>,
+}
+
+impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
+    /// Prepares σ, its inverse and its threshold for each component.
+    ///
+    /// # Errors
+    /// [`ScoreError::TooManyComponents`], or a setting out of its range.
+    pub fn new(template: &'t Template<'t>, settings: &Settings) -> Result<Self, ScoreError> {
+        settings.check()?;
+        let mut prepared = Vec::new();
+        let mut largest_threshold = 0.0;
+        for component in template.components() {
+            let sigma = match settings.sigma {
+                Sigma::Fixed(sigma) => sigma,
+                Sigma::Template { noise } => combined(component.sigma_hat, noise),
+            };
+            let threshold = bound::contribution(settings.likelihood, sigma, settings.delta);
+            if threshold > largest_threshold {
+                largest_threshold = threshold;
+            }
+            prepared
+                .push(Prepared {
+                    inverse_sigma: 1.0 / sigma,
+                    log_sigma: math::ln(sigma),
+                    threshold,
+                })
+                .map_err(|_| ScoreError::TooManyComponents {
+                    capacity: COMPONENTS,
+                    found: template.component_count(),
+                })?;
+        }
+        Ok(Self {
+            template,
+            likelihood: settings.likelihood,
+            assignment: settings.assignment,
+            smallest_distance: tolerance::NO_DIRECTION * template.radius(),
+            largest_threshold,
+            prepared,
+        })
+    }
+
+    /// The component that speaks for `point`, and what it says; `None` when none can: the point
+    /// lies on its reference point or infinitely far away.
+    #[must_use]
+    pub fn evaluate(&self, point: &Point3<f32>) -> Option<Match> {
+        match self.assignment {
+            Assignment::Nearest => self.evaluate_nearest(point),
+            Assignment::Maximum => self.evaluate_maximum(point),
+        }
+    }
+
+    /// What a match contributes to the threshold; without a match, the largest of all components,
+    /// so that points that nothing explains never make a pose easier to accept.
+    #[must_use]
+    pub fn threshold(&self, found: Option<&Match>) -> f32 {
+        let own = found.and_then(|found| self.prepared.get(found.component));
+        match own {
+            Some(prepared) => prepared.threshold,
+            None => self.largest_threshold,
+        }
+    }
+
+    fn evaluate_nearest(&self, point: &Point3<f32>) -> Option<Match> {
+        let mut nearest: Option<(f32, usize, Component<'t>)> = None;
+        for (index, component) in self.template.components().enumerate() {
+            let [x, y, z] = component.centre;
+            let offset = [point.x - x, point.y - y, point.z - z];
+            let squared = math::dot(offset, offset);
+            if nearest.as_ref().is_none_or(|(best, ..)| squared < *best) {
+                nearest = Some((squared, index, component));
+            }
+        }
+        let (_, index, component) = nearest?;
+        let prepared = self.prepared.get(index)?;
+        let prediction = self.predict(&component, prepared, point)?;
+        Some(self.matched(index, &prediction, prepared))
+    }
+
+    /// The most probable component has the smallest e²/2σ², plus ln σ for the density, so that one
+    /// exponential a point is enough.
+    fn evaluate_maximum(&self, point: &Point3<f32>) -> Option<Match> {
+        let mut best: Option<(f32, usize, Prediction)> = None;
+        for (index, (component, prepared)) in
+            self.template.components().zip(&self.prepared).enumerate()
+        {
+            let Some(prediction) = self.predict(&component, prepared, point) else {
+                continue;
+            };
+            let cost = match self.likelihood {
+                Likelihood::Peak => prediction.half_square,
+                Likelihood::Density => prediction.half_square + prepared.log_sigma,
+            };
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                best = Some((cost, index, prediction));
+            }
+        }
+        let (_, index, prediction) = best?;
+        Some(self.matched(index, &prediction, self.prepared.get(index)?))
+    }
+
+    fn predict(
+        &self,
+        component: &Component<'t>,
+        prepared: &Prepared,
+        point: &Point3<f32>,
+    ) -> Option<Prediction> {
+        let (direction, distance) = gp::direction_and_distance(
+            [point.x, point.y, point.z],
+            component.centre,
+            self.smallest_distance,
+        )?;
+        let predicted = component.posterior_mean(self.template.kernel(), &direction);
+        if !predicted.is_finite() {
+            return None;
+        }
+        let scaled = (distance - predicted) * prepared.inverse_sigma;
+        Some(Prediction {
+            distance,
+            predicted,
+            half_square: 0.5 * scaled * scaled,
+        })
+    }
+
+    fn matched(&self, component: usize, prediction: &Prediction, prepared: &Prepared) -> Match {
+        let peak = math::exp(-prediction.half_square);
+        Match {
+            component,
+            distance: prediction.distance,
+            predicted: prediction.predicted,
+            likelihood: match self.likelihood {
+                Likelihood::Peak => peak,
+                Likelihood::Density => peak * prepared.inverse_sigma / SQRT_TWO_PI,
+            },
+        }
+    }
+}
+
+/// √(σ̂² + σ_m²), never below σ̂ and never infinite, whatever the squares round to.
+fn combined(sigma_hat: f32, noise: f32) -> f32 {
+    let both = (sigma_hat * sigma_hat + noise * noise).square_root();
+    if !both.is_finite() {
+        f32::MAX
+    } else if both < sigma_hat {
+        sigma_hat
+    } else {
+        both
+    }
+}

@@ -1,0 +1,184 @@
+//! A pose: a checked rotation matrix and a translation, object to camera.
+//!
+//! Owns the check that a matrix is a rotation, and its repair on request. Estimating poses is the
+//! estimator's work.
+
+use crate::error::PoseError;
+use crate::math;
+use crate::tolerance;
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+
+/// Newton's iteration squares the error each time, so that from
+/// [`tolerance::ORTHONORMALISABLE`] five steps reach `f32`'s rounding; the sixth is for the rounding.
+const NEWTON_STEPS: usize = 6;
+
+/// The object's pose in the camera's frame: a point P of the object is seen at RP + t.
+///
+/// The camera looks along +Z, x to the right and y down (OpenCV, BOP).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    rotation: Rotation3<f32>,
+    translation: Vector3<f32>,
+}
+
+impl Pose {
+    /// From row-major R and t, BOP's `cam_R_m2c` and `cam_t_m2c`.
+    ///
+    /// # Errors
+    /// [`PoseError::NotFinite`]; [`PoseError::NotARotation`] when RᵀR differs from I by more than
+    /// [`tolerance::ROTATION`]; [`PoseError::Reflection`] when det R is not positive.
+    pub fn from_row_major(r: [f32; 9], t: [f32; 3]) -> Result<Self, PoseError> {
+        let (rotation, translation) = checked(r, t, tolerance::ROTATION)?;
+        Ok(Self {
+            rotation: Rotation3::from_matrix_unchecked(rotation),
+            translation,
+        })
+    }
+
+    /// Like [`Pose::from_row_major`], but replaces R by the nearest rotation.
+    ///
+    /// Newton's iteration R ← R(3I − RᵀR)/2 towards the orthogonal factor of the polar
+    /// decomposition, which is the nearest rotation in the Frobenius norm: products and sums only,
+    /// no trigonometry. Reference: Å. Björck and C. Bowie, SIAM J. Numer. Anal. 8 (1971).
+    ///
+    /// # Errors
+    /// As [`Pose::from_row_major`], with [`tolerance::ORTHONORMALISABLE`] in place of
+    /// [`tolerance::ROTATION`].
+    pub fn from_row_major_orthonormalised(r: [f32; 9], t: [f32; 3]) -> Result<Self, PoseError> {
+        let (mut rotation, translation) = checked(r, t, tolerance::ORTHONORMALISABLE)?;
+        for _ in 0..NEWTON_STEPS {
+            let gram = rotation.transpose() * rotation;
+            rotation = rotation * (Matrix3::identity() * 3.0 - gram) * 0.5;
+        }
+        Ok(Self {
+            rotation: Rotation3::from_matrix_unchecked(rotation),
+            translation,
+        })
+    }
+
+    /// R.
+    #[must_use]
+    pub fn rotation(&self) -> &Rotation3<f32> {
+        &self.rotation
+    }
+
+    /// t, in the template's unit.
+    #[must_use]
+    pub fn translation(&self) -> &Vector3<f32> {
+        &self.translation
+    }
+
+    /// RP + t: from the object's frame to the camera's.
+    #[must_use]
+    pub fn to_camera(&self, point: &Point3<f32>) -> Point3<f32> {
+        let p = [point.x, point.y, point.z];
+        let r = self.rotation.matrix();
+        let t = &self.translation;
+        Point3::new(
+            math::dot([r.m11, r.m12, r.m13], p) + t.x,
+            math::dot([r.m21, r.m22, r.m23], p) + t.y,
+            math::dot([r.m31, r.m32, r.m33], p) + t.z,
+        )
+    }
+
+    /// Rᵀ(p − t): from the camera's frame to the object's.
+    #[must_use]
+    pub fn to_object(&self, point: &Point3<f32>) -> Point3<f32> {
+        let t = &self.translation;
+        let p = [point.x - t.x, point.y - t.y, point.z - t.z];
+        let r = self.rotation.matrix();
+        Point3::new(
+            math::dot([r.m11, r.m21, r.m31], p),
+            math::dot([r.m12, r.m22, r.m32], p),
+            math::dot([r.m13, r.m23, r.m33], p),
+        )
+    }
+}
+
+fn checked(
+    r: [f32; 9],
+    t: [f32; 3],
+    tolerance: f32,
+) -> Result<(Matrix3<f32>, Vector3<f32>), PoseError> {
+    if !r.iter().chain(&t).all(|entry| entry.is_finite()) {
+        return Err(PoseError::NotFinite);
+    }
+    let rotation = Matrix3::from_row_slice(&r);
+    let translation = Vector3::from(t);
+    let gram = rotation.transpose() * rotation - Matrix3::identity();
+    let deviation = gram.iter().fold(0.0, |most, entry| {
+        let size = math::abs(*entry);
+        // Written so that a NaN from an overflow counts as the largest deviation.
+        if size <= most { most } else { size }
+    });
+    if deviation.is_nan() || deviation > tolerance {
+        return Err(PoseError::NotARotation {
+            deviation,
+            tolerance,
+        });
+    }
+    let determinant = rotation.determinant();
+    if determinant.is_nan() || determinant <= 0.0 {
+        return Err(PoseError::Reflection { determinant });
+    }
+    Ok((rotation, translation))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const QUARTER_TURN: [f32; 9] = [0., -1., 0., 1., 0., 0., 0., 0., 1.];
+
+    #[test]
+    fn a_reflection_is_refused_even_when_orthonormalising() {
+        let mirror = [1., 0., 0., 0., 1., 0., 0., 0., -1.];
+        for build in [Pose::from_row_major, Pose::from_row_major_orthonormalised] {
+            assert_eq!(
+                build(mirror, [0.; 3]),
+                Err(PoseError::Reflection { determinant: -1. })
+            );
+        }
+    }
+
+    #[test]
+    fn a_scaled_rotation_is_refused_and_repaired_on_request() {
+        let scaled = QUARTER_TURN.map(|entry| entry * 0.99985);
+        assert!(matches!(
+            Pose::from_row_major(scaled, [0.; 3]),
+            Err(PoseError::NotARotation { .. })
+        ));
+        let pose = Pose::from_row_major_orthonormalised(scaled, [0.; 3]).unwrap();
+        let exact = Matrix3::from_row_slice(&QUARTER_TURN);
+        assert!((pose.rotation().matrix() - exact).norm() < 1e-6);
+    }
+
+    #[test]
+    fn the_worst_repairable_matrix_is_repaired_to_rounding() {
+        let mut sheared = QUARTER_TURN;
+        sheared[0] = 0.09;
+        let pose = Pose::from_row_major_orthonormalised(sheared, [0.; 3]).unwrap();
+        let r = pose.rotation().matrix();
+        assert!((r.transpose() * r - Matrix3::identity()).norm() < 1e-6);
+    }
+
+    #[test]
+    fn nan_and_overflow_are_refused() {
+        let mut r = QUARTER_TURN;
+        r[4] = f32::NAN;
+        assert_eq!(Pose::from_row_major(r, [0.; 3]), Err(PoseError::NotFinite));
+        r[4] = 3e38;
+        assert!(matches!(
+            Pose::from_row_major(r, [0.; 3]),
+            Err(PoseError::NotARotation { .. })
+        ));
+        assert!(Pose::from_row_major(QUARTER_TURN, [0., f32::INFINITY, 0.]).is_err());
+    }
+
+    #[test]
+    fn to_object_undoes_to_camera() {
+        let pose = Pose::from_row_major(QUARTER_TURN, [5., 6., 700.]).unwrap();
+        let point = Point3::new(1., 2., 3.);
+        assert!((pose.to_object(&pose.to_camera(&point)) - point).norm() < 1e-4);
+    }
+}

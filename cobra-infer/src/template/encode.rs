@@ -1,0 +1,223 @@
+//! Writes a template into a caller's buffer.
+//!
+//! Here and not in the trainer, because the format exists once. What was written is read back and
+//! validated, so that no file is made that a controller would refuse.
+
+use super::Template;
+use super::wire::{
+    self, ComponentsSection, HEADER_LENGTH, Header, ModelSection, NAME_CAPACITY, ObjectSection,
+    RECORD_LENGTH, REQUIRED, SECTION_HEADER_LENGTH, SectionHeader, TermEncoding, TermsSection,
+};
+use crate::error::{EncodeError, Section};
+use crate::gp::{Hyperparameters, UnitDirection};
+use crate::kernel::{Kernel, Metric};
+use crate::unit::Unit;
+use heapless::String;
+use serde::ser::SerializeSeq;
+use serde::{Serialize, Serializer};
+
+/// The content of a template, borrowed from whoever trained it.
+#[derive(Clone, Copy, Debug)]
+pub struct TemplateSource<'a> {
+    /// The object's name, at most [`NAME_CAPACITY`] bytes.
+    pub name: &'a str,
+    /// The unit of every length.
+    pub unit: Unit,
+    /// Centre of the bounding sphere.
+    pub centre: [f32; 3],
+    /// Radius of the bounding sphere.
+    pub radius: f32,
+    /// Largest distance between two points of the object.
+    pub diameter: f32,
+    /// What counts as the distance between two directions.
+    pub metric: Metric,
+    /// The covariance function.
+    pub kernel: Kernel,
+    /// The components, in the order in which the scorer visits them.
+    pub components: &'a [ComponentSource<'a>],
+}
+
+/// The content of one component.
+#[derive(Clone, Copy, Debug)]
+pub struct ComponentSource<'a> {
+    /// C_k.
+    pub centre: [f32; 3],
+    /// σ̂_k.
+    pub sigma_hat: f32,
+    /// The hyperparameters that the mean needs.
+    pub hyperparameters: Hyperparameters,
+    /// The directions, as many as weights.
+    pub directions: &'a [UnitDirection],
+    /// The weights K⁻¹(d − m), times the signal variance.
+    pub weights: &'a [f32],
+}
+
+/// An upper bound of the bytes that [`encode`] writes, tight to a few dozen.
+#[must_use]
+pub fn encoded_len(source: &TemplateSource<'_>) -> usize {
+    // A varint has at most 5 bytes, an enum 1 to 2; the object section holds 5 floats.
+    let sections = 4 * SECTION_HEADER_LENGTH + (6 + source.name.len() + 2 + 5 * 4) + 6 + 8 + 7;
+    let terms: usize = source.components.iter().map(|c| c.weights.len()).sum();
+    HEADER_LENGTH
+        .saturating_add(sections)
+        .saturating_add(source.components.len().saturating_mul(RECORD_LENGTH))
+        .saturating_add(terms.saturating_mul(16))
+}
+
+/// Writes a template to the start of `out` and returns its length.
+///
+/// # Errors
+/// [`EncodeError`]: a name that is too long, unequal numbers of directions and weights, a buffer
+/// that is too small, or content that [`Template::from_bytes`] would refuse.
+pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, EncodeError> {
+    let name = String::try_from(source.name).map_err(|_| EncodeError::Name {
+        capacity: NAME_CAPACITY,
+        found: source.name.len(),
+    })?;
+    for (component, c) in source.components.iter().enumerate() {
+        if c.directions.len() != c.weights.len() {
+            return Err(EncodeError::TermCount {
+                component,
+                directions: c.directions.len(),
+                weights: c.weights.len(),
+            });
+        }
+    }
+    let found = out.len();
+    let mut used = HEADER_LENGTH;
+    section(
+        out,
+        &mut used,
+        Section::Object,
+        &ObjectSection {
+            name,
+            unit: source.unit,
+            centre: source.centre,
+            radius: source.radius,
+            diameter: source.diameter,
+        },
+    )?;
+    section(
+        out,
+        &mut used,
+        Section::Model,
+        &ModelSection {
+            metric: source.metric,
+            kernel: source.kernel,
+        },
+    )?;
+    section(
+        out,
+        &mut used,
+        Section::Components,
+        &ComponentsSection {
+            stride: RECORD_LENGTH as u16,
+            records: Records(source.components),
+        },
+    )?;
+    section(
+        out,
+        &mut used,
+        Section::Terms,
+        &TermsSection {
+            encoding: TermEncoding::Float32,
+            values: Values(source.components),
+        },
+    )?;
+    let written = out.get_mut(..used).ok_or(EncodeError::Buffer { found })?;
+    let (header, payload) = written
+        .split_first_chunk_mut::<HEADER_LENGTH>()
+        .ok_or(EncodeError::Buffer { found })?;
+    *header = Header {
+        length: u32::try_from(used).map_err(|_| EncodeError::TooLarge)?,
+        checksum: wire::checksum(payload),
+    }
+    .to_bytes();
+    Template::from_bytes(written).map_err(EncodeError::Invalid)?;
+    Ok(used)
+}
+
+fn section<T: Serialize>(
+    out: &mut [u8],
+    used: &mut usize,
+    section: Section,
+    body: &T,
+) -> Result<(), EncodeError> {
+    let buffer = EncodeError::Buffer { found: out.len() };
+    let (header, rest) = out
+        .get_mut(*used..)
+        .and_then(|rest| rest.split_first_chunk_mut::<SECTION_HEADER_LENGTH>())
+        .ok_or(buffer)?;
+    let length = postcard::to_slice(body, rest).map_err(|_| buffer)?.len();
+    *header = SectionHeader {
+        tag: wire::tag(section),
+        flags: REQUIRED,
+        length: u32::try_from(length).map_err(|_| EncodeError::TooLarge)?,
+    }
+    .to_bytes();
+    *used = used
+        .saturating_add(SECTION_HEADER_LENGTH)
+        .saturating_add(length);
+    Ok(())
+}
+
+/// The components' records. In postcard a sequence of bytes and a byte array are the same, so the
+/// reader borrows what is written here element by element.
+struct Records<'a>(&'a [ComponentSource<'a>]);
+
+impl Serialize for Records<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut sequence =
+            serializer.serialize_seq(Some(self.0.len().saturating_mul(RECORD_LENGTH)))?;
+        let mut first = 0_u32;
+        for component in self.0 {
+            let [x, y, z] = component.centre;
+            let h = &component.hyperparameters;
+            let count = u32::try_from(component.weights.len()).unwrap_or(u32::MAX);
+            let numbers = [
+                x,
+                y,
+                z,
+                component.sigma_hat,
+                h.length_scale,
+                h.exponent,
+                h.prior_mean,
+            ];
+            for byte in numbers
+                .into_iter()
+                .map(f32::to_le_bytes)
+                .chain([first.to_le_bytes(), count.to_le_bytes()])
+                .flatten()
+            {
+                sequence.serialize_element(&byte)?;
+            }
+            first = first.saturating_add(count);
+        }
+        sequence.end()
+    }
+}
+
+/// The components' directions and weights.
+struct Values<'a>(&'a [ComponentSource<'a>]);
+
+impl Serialize for Values<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let terms: usize = self.0.iter().map(|c| c.weights.len()).sum();
+        let mut sequence = serializer.serialize_seq(Some(terms.saturating_mul(16)))?;
+        for component in self.0 {
+            let directions = component.directions.iter();
+            let xs = directions.clone().map(|u| u.x);
+            let ys = directions.clone().map(|u| u.y);
+            let zs = directions.map(|u| u.z);
+            for byte in xs
+                .chain(ys)
+                .chain(zs)
+                .chain(component.weights.iter().copied())
+                .flat_map(f32::to_le_bytes)
+            {
+                sequence.serialize_element(&byte)?;
+            }
+        }
+        sequence.end()
+    }
+}

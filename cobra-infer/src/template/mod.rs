@@ -1,0 +1,161 @@
+//! The template: a file that stays where it is and is read in place.
+//!
+//! Owns the wire format (its document is `docs/FORMAT.md`): the header, the sections, the records,
+//! everything that is checked before anything is used, and the encoder that the trainer calls.
+//! A [`Template`] borrows the bytes, at any alignment; its components are read by offset when they
+//! are needed, so that nothing of a template in flash is copied to RAM.
+
+mod encode;
+mod validate;
+mod wire;
+
+pub use encode::{ComponentSource, TemplateSource, encode, encoded_len};
+pub use wire::{HEADER_LENGTH, MAGIC, NAME_CAPACITY, RECORD_LENGTH, VERSION, peek_len};
+
+use crate::error::TemplateError;
+use crate::gp::{self, Hyperparameters, Terms, UnitDirection, Word};
+use crate::kernel::{Kernel, Metric};
+use crate::unit::Unit;
+use heapless::String;
+use wire::Record;
+
+/// A validated template over borrowed bytes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Template<'a> {
+    name: String<NAME_CAPACITY>,
+    unit: Unit,
+    centre: [f32; 3],
+    radius: f32,
+    diameter: f32,
+    metric: Metric,
+    kernel: Kernel,
+    records: &'a [Record],
+    words: &'a [Word],
+}
+
+/// One component of a template: a reference point and the Gaussian process around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Component<'a> {
+    /// C_k, in the object's frame and the template's unit.
+    pub centre: [f32; 3],
+    /// σ̂_k > 0 (Eq. 9): the rms residual on held-out points, in the template's unit.
+    pub sigma_hat: f32,
+    /// The hyperparameters that its mean needs.
+    pub hyperparameters: Hyperparameters,
+    /// Its directions and weights.
+    pub terms: Terms<'a>,
+}
+
+/// What scoring one point costs, in kernel evaluations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cost {
+    /// The most that nearest assignment needs: the terms of the largest component.
+    pub nearest: usize,
+    /// What maximum assignment always needs: the terms of all components.
+    pub maximum: usize,
+}
+
+impl<'a> Template<'a> {
+    /// Checks `bytes`, which must be exactly one template, and borrows them.
+    ///
+    /// Everything that scoring relies on is checked here: magic, version, length, checksum,
+    /// sections, counts, finite numbers, positive σ̂ and length scales, unit directions, no
+    /// trailing bytes. To load from flash that is padded behind the template, cut it with
+    /// [`peek_len`] first:
+    /// ```
+    /// # use cobra_infer::{Template, template::peek_len, TemplateError};
+    /// # fn load(flash: &[u8]) -> Result<(), TemplateError> {
+    /// let length = peek_len(flash)?;
+    /// let template = Template::from_bytes(flash.get(..length).unwrap_or(flash))?;
+    /// # Ok(()) }
+    /// ```
+    ///
+    /// # Errors
+    /// [`TemplateError`] says what is wrong and where.
+    pub fn from_bytes(bytes: &'a [u8]) -> Result<Self, TemplateError> {
+        validate::template(bytes)
+    }
+
+    /// The object's name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The unit of every length in the template.
+    #[must_use]
+    pub fn unit(&self) -> Unit {
+        self.unit
+    }
+
+    /// The centre of the object's bounding sphere, in its frame.
+    #[must_use]
+    pub fn centre(&self) -> [f32; 3] {
+        self.centre
+    }
+
+    /// The radius of the object's bounding sphere: 1 in the paper's unit sphere.
+    #[must_use]
+    pub fn radius(&self) -> f32 {
+        self.radius
+    }
+
+    /// The largest distance between two points of the object.
+    #[must_use]
+    pub fn diameter(&self) -> f32 {
+        self.diameter
+    }
+
+    /// What counts as the distance between two directions.
+    #[must_use]
+    pub fn metric(&self) -> Metric {
+        self.metric
+    }
+
+    /// The covariance function.
+    #[must_use]
+    pub fn kernel(&self) -> Kernel {
+        self.kernel
+    }
+
+    /// How many components there are; at least one.
+    #[must_use]
+    pub fn component_count(&self) -> usize {
+        self.records.len()
+    }
+
+    /// How many terms all components have together.
+    #[must_use]
+    pub fn term_count(&self) -> usize {
+        self.words.len() / 4
+    }
+
+    /// The components, each read from its record as it is asked for.
+    pub fn components(&self) -> impl ExactSizeIterator<Item = Component<'a>> + use<'a> {
+        let words = self.words;
+        self.records
+            .iter()
+            .map(move |record| wire::component(record, words))
+    }
+
+    /// The number of kernel evaluations that one point costs.
+    #[must_use]
+    pub fn cost(&self) -> Cost {
+        Cost {
+            nearest: self
+                .components()
+                .map(|component| component.terms.len())
+                .max()
+                .unwrap_or(0),
+            maximum: self.term_count(),
+        }
+    }
+}
+
+impl Component<'_> {
+    /// The posterior mean of the distance in direction `u`, in the template's unit (Eq. 5).
+    #[must_use]
+    pub fn posterior_mean(&self, kernel: Kernel, u: &UnitDirection) -> f32 {
+        gp::posterior_mean(kernel, &self.hyperparameters, &self.terms, u)
+    }
+}
