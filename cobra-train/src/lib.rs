@@ -1,3 +1,6 @@
 //! Trains, evaluates and applies COBRA shape templates.
 
+pub mod gp;
+pub mod random;
+pub mod reference;
 pub mod surface;

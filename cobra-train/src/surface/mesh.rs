@@ -63,6 +63,20 @@ pub struct BoundingSphere {
     pub radius: f64,
 }
 
+impl BoundingSphere {
+    /// From the mesh's frame to the unit sphere.
+    #[must_use]
+    pub fn normalise(&self, point: &Point3<f64>) -> Point3<f64> {
+        Point3::from((point - self.centre) / self.radius)
+    }
+
+    /// From the unit sphere to the mesh's frame.
+    #[must_use]
+    pub fn denormalise(&self, point: &Point3<f64>) -> Point3<f64> {
+        self.centre + point.coords * self.radius
+    }
+}
+
 impl Mesh {
     /// Checks the vertices and faces and keeps the triangles that have an area.
     ///
@@ -189,11 +203,7 @@ impl Mesh {
     #[must_use]
     pub fn normalised(&self, sphere: &BoundingSphere) -> Self {
         Self {
-            vertices: self
-                .vertices
-                .iter()
-                .map(|v| Point3::from((v - sphere.centre) / sphere.radius))
-                .collect(),
+            vertices: self.vertices.iter().map(|v| sphere.normalise(v)).collect(),
             triangles: self.triangles.clone(),
             dropped: self.dropped,
         }

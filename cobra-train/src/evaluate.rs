@@ -1,0 +1,187 @@
+//! How well a template reproduces a surface: Chamfer distance, precision, recall, F-score.
+//!
+//! Owns the paper's definitions (its supplement, Metrics). Predictions come from the scorer's own
+//! mixture, so that what is measured is what will run.
+
+use crate::train::LARGEST_TEMPLATE;
+use cobra_infer::mixture::Match;
+use cobra_infer::{Assignment, Mixture, ScoreError, Settings, Template};
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use nalgebra::{Point3, Vector3};
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// τ: a point is reproduced when the other set has a point nearer than this (unit sphere).
+pub const TAU: f64 = 0.01;
+
+/// How well a template reproduces a surface, in the unit sphere.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ShapeMetrics {
+    /// d_C × 10³: the mean squared distances from each set to the other, added.
+    pub chamfer: f64,
+    /// Percent of the predicted points within τ of the surface points.
+    pub precision: f64,
+    /// Percent of the surface points within τ of the predicted points.
+    pub recall: f64,
+    /// 2PR/(P + R).
+    pub f_score: f64,
+}
+
+/// The magnitude of the residuals d − μ(u).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ResidualSummary {
+    /// Root mean square.
+    pub rms: f64,
+    /// Median.
+    pub median: f64,
+    /// 95th percentile.
+    pub p95: f64,
+}
+
+/// A surface point and what the template predicts in its direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PredictedPoint {
+    /// C_k + μ_k(u)·u, in the object's frame and the template's unit.
+    pub position: Point3<f64>,
+    /// e = d − μ_k(u), in the template's unit.
+    pub residual: f64,
+    /// k.
+    pub component: usize,
+}
+
+/// A template measured on surface points under one rule of assignment.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// The paper's metrics.
+    pub shape: ShapeMetrics,
+    /// Residuals, in the template's unit.
+    pub residual: ResidualSummary,
+    /// Surface points that no component could say anything about.
+    pub unmatched: usize,
+    /// The predictions, in the order of the points; those without a match left out.
+    pub predicted: Vec<PredictedPoint>,
+}
+
+/// What the template says of each point, in the object's frame and the template's unit.
+///
+/// # Errors
+/// [`ScoreError::TooManyComponents`] beyond [`LARGEST_TEMPLATE`].
+pub fn residuals(
+    template: &Template<'_>,
+    assignment: Assignment,
+    points: &[Point3<f64>],
+) -> Result<Vec<Option<Match>>, ScoreError> {
+    let settings = Settings {
+        assignment,
+        ..Settings::with_delta(template.radius())
+    };
+    let mixture = Mixture::<LARGEST_TEMPLATE>::new(template, &settings)?;
+    Ok(points
+        .par_iter()
+        .map(|point| mixture.evaluate(&point.cast::<f32>()))
+        .collect())
+}
+
+/// Measures a template on surface points (object frame, template's unit), at least one.
+///
+/// # Errors
+/// [`ScoreError::TooManyComponents`] beyond [`LARGEST_TEMPLATE`].
+pub fn evaluate(
+    template: &Template<'_>,
+    assignment: Assignment,
+    points: &[Point3<f64>],
+) -> Result<Evaluation, ScoreError> {
+    let matches = residuals(template, assignment, points)?;
+    let centres: Vec<Point3<f64>> = template
+        .components()
+        .map(|component| Point3::from(component.centre).cast())
+        .collect();
+    let predicted: Vec<PredictedPoint> = points
+        .iter()
+        .zip(&matches)
+        .filter_map(|(point, found)| {
+            let found = found.as_ref()?;
+            let centre = centres[found.component];
+            let direction: Vector3<f64> = (point - centre).normalize();
+            Some(PredictedPoint {
+                position: centre + direction * f64::from(found.predicted),
+                residual: f64::from(found.residual()),
+                component: found.component,
+            })
+        })
+        .collect();
+    let centre: Point3<f64> = Point3::from(template.centre()).cast();
+    let radius = f64::from(template.radius());
+    let unit = |point: &Point3<f64>| -> [f64; 3] { ((point - centre) / radius).into() };
+    let surface: Vec<[f64; 3]> = points.iter().map(unit).collect();
+    let estimate: Vec<[f64; 3]> = predicted.iter().map(|p| unit(&p.position)).collect();
+    Ok(Evaluation {
+        shape: shape_metrics(&surface, &estimate),
+        residual: summarise(predicted.iter().map(|p| p.residual.abs()).collect()),
+        unmatched: points.len() - predicted.len(),
+        predicted,
+    })
+}
+
+/// The paper's metrics between two point sets in the unit sphere; the worst values where one is
+/// empty.
+#[must_use]
+pub fn shape_metrics(surface: &[[f64; 3]], estimate: &[[f64; 3]]) -> ShapeMetrics {
+    let to_surface = squared_distances(estimate, surface);
+    let to_estimate = squared_distances(surface, estimate);
+    let mean = |squared: &[f64]| squared.iter().sum::<f64>() / squared.len() as f64;
+    let share = |squared: &[f64]| {
+        let near = squared.iter().filter(|s| **s < TAU * TAU).count();
+        100.0 * near as f64 / squared.len().max(1) as f64
+    };
+    let (precision, recall) = (share(&to_surface), share(&to_estimate));
+    ShapeMetrics {
+        chamfer: if estimate.is_empty() || surface.is_empty() {
+            f64::INFINITY
+        } else {
+            1e3 * (mean(&to_surface) + mean(&to_estimate))
+        },
+        precision,
+        recall,
+        f_score: if precision + recall > 0.0 {
+            2.0 * precision * recall / (precision + recall)
+        } else {
+            0.0
+        },
+    }
+}
+
+/// The squared distance from each point of `from` to the nearest of `to`.
+fn squared_distances(from: &[[f64; 3]], to: &[[f64; 3]]) -> Vec<f64> {
+    let Ok(tree) = ImmutableKdTree::<f64, 3>::new_from_slice(to) else {
+        return vec![f64::INFINITY; from.len()];
+    };
+    if to.is_empty() {
+        return vec![f64::INFINITY; from.len()];
+    }
+    from.par_iter()
+        .map(|point| {
+            tree.query(point)
+                .nearest_one::<SquaredEuclidean<f64>>()
+                .execute()
+                .distance
+        })
+        .collect()
+}
+
+fn summarise(mut magnitudes: Vec<f64>) -> ResidualSummary {
+    magnitudes.sort_by(f64::total_cmp);
+    let squares: f64 = magnitudes.iter().map(|m| m * m).sum();
+    let quantile = |share: f64| {
+        let index = (share * magnitudes.len() as f64) as usize;
+        magnitudes
+            .get(index.min(magnitudes.len().saturating_sub(1)))
+            .copied()
+            .unwrap_or(0.0)
+    };
+    ResidualSummary {
+        rms: (squares / magnitudes.len().max(1) as f64).sqrt(),
+        median: quantile(0.5),
+        p95: quantile(0.95),
+    }
+}

@@ -1,0 +1,124 @@
+//! Fitting one component: from points around a reference point to directions and weights.
+
+use super::cholesky::{Cholesky, NotPositiveDefinite};
+use super::likelihood::{gram, squared_distances};
+use super::optimise::{Learned, OptimiserError, learn};
+use cobra_infer::Kernel;
+use nalgebra::{Point3, UnitVector3};
+use rand::Rng;
+use rand::seq::index;
+
+/// The most points one Gaussian process is fitted to: its Gram matrix then takes 1.2 GB.
+pub const LARGEST_GP: usize = 12_000;
+
+/// A point nearer to its reference point than this has no usable direction (unit sphere).
+const SMALLEST_DISTANCE: f64 = 1e-4;
+
+/// The prior mean m of the distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PriorMean {
+    /// m = 0, as the paper (Eq. 3).
+    Zero,
+    /// m = the mean distance of the component's points.
+    Average,
+}
+
+/// How a component is fitted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FitOptions {
+    /// The covariance function.
+    pub kernel: Kernel,
+    /// The prior mean.
+    pub prior_mean: PriorMean,
+    /// How many points hyperparameters are learned on.
+    pub subset: usize,
+}
+
+/// A fitted component, in the units of the points that it was fitted to.
+#[derive(Clone, Debug)]
+pub struct FittedGp {
+    /// The training directions.
+    pub directions: Vec<UnitVector3<f64>>,
+    /// v·K⁻¹(d − m): multiplies the unit-variance kernel.
+    pub weights: Vec<f64>,
+    /// m.
+    pub prior_mean: f64,
+    /// The hyperparameters and how they were found.
+    pub learned: Learned,
+}
+
+/// Why a component could not be fitted.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FitError {
+    /// No point has a direction.
+    #[error("no training point lies away from the reference point")]
+    NoPoints,
+    /// The Gram matrix would not fit.
+    #[error(
+        "{found} training points in one component, at most {LARGEST_GP} fit: use more components \
+         or fewer points"
+    )]
+    TooManyPoints {
+        /// How many.
+        found: usize,
+    },
+    /// The factorisation failed.
+    #[error(transparent)]
+    NotPositiveDefinite(#[from] NotPositiveDefinite),
+    /// Learning failed.
+    #[error(transparent)]
+    Optimiser(#[from] OptimiserError),
+}
+
+/// Fits d ~ GP(m, v·k) + noise to the distances of `points` from `centre` (Eqs. 1 to 5).
+///
+/// Hyperparameters are learned on a random subset, the weights on all points.
+///
+/// # Errors
+/// [`FitError`].
+pub fn fit(
+    centre: &Point3<f64>,
+    points: &[Point3<f64>],
+    options: &FitOptions,
+    rng: &mut impl Rng,
+) -> Result<FittedGp, FitError> {
+    let (directions, distances): (Vec<_>, Vec<_>) = points
+        .iter()
+        .filter_map(|point| UnitVector3::try_new_and_get(point - centre, SMALLEST_DISTANCE))
+        .unzip();
+    let found = directions.len();
+    if found == 0 {
+        return Err(FitError::NoPoints);
+    }
+    if found > LARGEST_GP {
+        return Err(FitError::TooManyPoints { found });
+    }
+    let prior_mean = match options.prior_mean {
+        PriorMean::Zero => 0.0,
+        PriorMean::Average => distances.iter().sum::<f64>() / found as f64,
+    };
+    let targets: Vec<f64> = distances.iter().map(|d| d - prior_mean).collect();
+
+    let subset = index::sample(rng, found, options.subset.clamp(1, found)).into_vec();
+    let subset_directions: Vec<_> = subset.iter().map(|&i| directions[i]).collect();
+    let subset_targets: Vec<_> = subset.iter().map(|&i| targets[i]).collect();
+    let learned = learn(
+        options.kernel,
+        &squared_distances(&subset_directions),
+        &subset_targets,
+    )?;
+
+    let h = &learned.hyperparameters;
+    let factor = Cholesky::new(gram(options.kernel, h, &squared_distances(&directions)))?;
+    let weights = factor
+        .solve(&targets)
+        .into_iter()
+        .map(|w| h.signal_variance * w)
+        .collect();
+    Ok(FittedGp {
+        directions,
+        weights,
+        prior_mean,
+        learned,
+    })
+}

@@ -1,0 +1,17 @@
+//! Gaussian processes of the distance over directions: likelihood, optimisation, fit.
+//!
+//! Owns learning. The covariance function itself and the posterior mean belong to `cobra-infer`,
+//! so that host and controller compute the same thing.
+
+mod cholesky;
+mod fit;
+mod likelihood;
+mod optimise;
+
+pub use cholesky::{Cholesky, NotPositiveDefinite};
+pub use fit::{FitError, FitOptions, FittedGp, LARGEST_GP, PriorMean, fit};
+pub use likelihood::{
+    Hyperparameters, LikelihoodAndGradient, covariance, gram, negative_log_marginal_likelihood,
+    squared_distances,
+};
+pub use optimise::{Learned, NOISE_FLOOR, OptimiserError, StopReason, learn};

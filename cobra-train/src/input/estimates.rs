@@ -1,0 +1,220 @@
+//! Pose files: JSON with an image's poses under its id, as BOP's `scene_gt.json`.
+
+use cobra_infer::{Pose, PoseError};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// One estimated pose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// The image's id; `ID#N` for the N-th pose of an image with several.
+    pub id: String,
+    /// The image's id alone.
+    pub image: String,
+    /// The pose.
+    pub pose: Pose,
+}
+
+/// What to do with a matrix that is not quite a rotation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RotationRepair {
+    /// Refuse it.
+    Refuse,
+    /// Take the nearest rotation.
+    Orthonormalise,
+}
+
+/// Why a file holds no poses.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadEstimatesError {
+    /// The file could not be read.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file is not JSON; the message holds line and column.
+    #[error("{}: not valid JSON: {source}", path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and where.
+        source: serde_json::Error,
+    },
+    /// The JSON does not have the form of a pose file.
+    #[error("{}: {place}: expected {expected}, found {found}", path.display())]
+    Form {
+        /// The file.
+        path: PathBuf,
+        /// Where in the document.
+        place: String,
+        /// What should stand there.
+        expected: &'static str,
+        /// What does.
+        found: String,
+    },
+    /// The numbers are no pose.
+    #[error("{}: pose {id}: {source}{}", path.display(), advice(source))]
+    Pose {
+        /// The file.
+        path: PathBuf,
+        /// Which pose.
+        id: String,
+        /// What is wrong with it.
+        source: PoseError,
+    },
+}
+
+fn advice(error: &PoseError) -> &'static str {
+    match error {
+        PoseError::NotARotation {
+            deviation,
+            tolerance,
+        } if *tolerance < cobra_infer::tolerance::ORTHONORMALISABLE
+            && *deviation <= cobra_infer::tolerance::ORTHONORMALISABLE =>
+        {
+            " (--orthonormalise takes the nearest rotation)"
+        }
+        _ => "",
+    }
+}
+
+/// Reads `{"IMAGE": [{"cam_R_m2c": [9 numbers], "cam_t_m2c": [3 numbers]}, …], …}`, R row-major,
+/// object to camera; other keys are ignored. Poses come in the file's order.
+///
+/// # Errors
+/// [`ReadEstimatesError`] names the file and the place in it.
+pub fn read_estimates(
+    path: &Path,
+    repair: RotationRepair,
+) -> Result<Vec<Estimate>, ReadEstimatesError> {
+    let text = std::fs::read_to_string(path).map_err(|source| ReadEstimatesError::Io {
+        path: path.to_owned(),
+        source,
+    })?;
+    let document: Value =
+        serde_json::from_str(&text).map_err(|source| ReadEstimatesError::Json {
+            path: path.to_owned(),
+            source,
+        })?;
+    let images = document.as_object().ok_or_else(|| {
+        form(
+            path,
+            "the document",
+            "an object with image ids as keys",
+            &document,
+        )
+    })?;
+    let mut estimates = Vec::new();
+    for (image, poses) in images {
+        let list = poses
+            .as_array()
+            .ok_or_else(|| form(path, image, "a list of poses", poses))?;
+        for (index, entry) in list.iter().enumerate() {
+            let place = format!("{image}[{index}]");
+            let rotation = numbers::<9>(path, &place, entry, "cam_R_m2c", "9 numbers")?;
+            let translation = numbers::<3>(path, &place, entry, "cam_t_m2c", "3 numbers")?;
+            let id = match list.len() {
+                1 => image.clone(),
+                _ => format!("{image}#{index}"),
+            };
+            let build = match repair {
+                RotationRepair::Refuse => Pose::from_row_major,
+                RotationRepair::Orthonormalise => Pose::from_row_major_orthonormalised,
+            };
+            let pose = build(rotation, translation).map_err(|source| ReadEstimatesError::Pose {
+                path: path.to_owned(),
+                id: id.clone(),
+                source,
+            })?;
+            estimates.push(Estimate {
+                id,
+                image: image.clone(),
+                pose,
+            });
+        }
+    }
+    if estimates.is_empty() {
+        return Err(form(path, "the document", "at least one pose", &document));
+    }
+    Ok(estimates)
+}
+
+fn numbers<const N: usize>(
+    path: &Path,
+    place: &str,
+    entry: &Value,
+    key: &str,
+    expected: &'static str,
+) -> Result<[f32; N], ReadEstimatesError> {
+    let value = entry.get(key).unwrap_or(&Value::Null);
+    let place = format!("{place}.{key}");
+    let list = value
+        .as_array()
+        .filter(|list| list.len() == N)
+        .ok_or_else(|| form(path, &place, expected, value))?;
+    let mut numbers = [0.0; N];
+    for (index, (number, value)) in numbers.iter_mut().zip(list).enumerate() {
+        *number = value.as_f64().ok_or_else(|| {
+            form(path, &format!("{place}[{index}]"), "a number", value)
+        })? as f32;
+    }
+    Ok(numbers)
+}
+
+fn form(path: &Path, place: &str, expected: &'static str, found: &Value) -> ReadEstimatesError {
+    ReadEstimatesError::Form {
+        path: path.to_owned(),
+        place: place.to_owned(),
+        expected,
+        found: match found {
+            Value::Null => "nothing".to_owned(),
+            Value::Array(list) => format!("a list of {}", list.len()),
+            Value::Object(map) => format!("an object with {} keys", map.len()),
+            other => other.to_string().chars().take(60).collect(),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = r#"{"7": [{"cam_R_m2c": [1,0,0,0,1,0,0,0,1], "cam_t_m2c": [0,0,500]}],
+        "3": [{"cam_R_m2c": [1,0,0,0,1,0,0,0,1], "cam_t_m2c": [0,0,1]},
+              {"cam_R_m2c": [1,0,0,0,1,0,0,0,1], "cam_t_m2c": [0,0,2]}]}"#;
+
+    fn read(text: &str) -> Result<Vec<Estimate>, String> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("poses.json");
+        std::fs::write(&path, text).unwrap();
+        read_estimates(&path, RotationRepair::Refuse).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn poses_come_in_the_files_order_with_ids_of_their_own() {
+        let ids: Vec<String> = read(GOOD).unwrap().into_iter().map(|e| e.id).collect();
+        assert_eq!(ids, ["7", "3#0", "3#1"]);
+    }
+
+    #[test]
+    fn what_is_missing_or_wrong_is_named_with_its_place() {
+        for (from, to, expected) in [
+            ("0,0,500]", "0,500]", "7[0].cam_t_m2c: expected 3 numbers, found a list of 2"),
+            ("cam_t_m2c\": [0,0,1]", "t\": [0,0,1]", "3[0].cam_t_m2c: expected 3 numbers, found nothing"),
+            ("0,0,500]", "0,\"far\",500]", "7[0].cam_t_m2c[1]: expected a number, found \"far\""),
+            ("[1,0,0,0,1,0,0,0,1]", "[1,0,0,0,1,0,0,0,-1]", "pose 7: R mirrors"),
+            ("[1,0,0,0,1,0,0,0,1]", "[1,0,0,0,1,0,0,0,0.9997]", "--orthonormalise"),
+            ("[1,0,0,0,1,0,0,0,1]", "[1,0,0,0,1,0,0,0,1e39]", "not finite"),
+            ("{\"7\"", "{7", "not valid JSON"),
+        ] {
+            let error = read(&GOOD.replacen(from, to, 1)).unwrap_err();
+            assert!(error.contains(expected), "{error}");
+            assert!(error.contains("poses.json") && !error.contains('\n'), "{error}");
+        }
+        assert!(read("[]").unwrap_err().contains("an object with image ids"));
+        assert!(read("{}").unwrap_err().contains("at least one pose"));
+    }
+}

@@ -1,0 +1,16 @@
+//! What users hand in to be scored: camera files, pose files, correspondences.
+//!
+//! Owns the file formats and their error messages. What the numbers mean belongs to
+//! `cobra-infer`.
+
+mod camera;
+mod correspondences;
+mod estimates;
+mod scale;
+
+pub use camera::{ReadCameraError, read_camera};
+pub use correspondences::{
+    CorrespondenceOptions, ReadCorrespondencesError, Weighting, read_correspondences,
+};
+pub use estimates::{Estimate, ReadEstimatesError, RotationRepair, read_estimates};
+pub use scale::{ScaleDoubt, doubt_pose_scale, doubt_point_scale};

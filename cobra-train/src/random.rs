@@ -1,0 +1,34 @@
+//! Seeded random streams.
+//!
+//! Every use of randomness draws from a stream of its own, named by the seed, what it is for, and
+//! an index. No stream is shared between threads, so results do not depend on their number.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+/// What a stream of random numbers is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Rays for training and test points.
+    TrainingRays,
+    /// Rays for the points that a template is evaluated on.
+    EvaluationRays,
+    /// Rays for simulated observations.
+    ObservationRays,
+    /// Where k-means starts.
+    Clustering,
+    /// Which points hyperparameters are learned on.
+    HyperparameterSubset,
+    /// Simulated pose errors.
+    PoseErrors,
+}
+
+/// The stream for one purpose and index.
+#[must_use]
+pub fn stream(seed: u64, purpose: Purpose, index: u64) -> ChaCha8Rng {
+    let mut key = [0; 32];
+    key[..8].copy_from_slice(&seed.to_le_bytes());
+    key[8] = purpose as u8;
+    key[16..24].copy_from_slice(&index.to_le_bytes());
+    ChaCha8Rng::from_seed(key)
+}
