@@ -1,6 +1,10 @@
 //! Trains, evaluates and applies COBRA shape templates.
 
+pub mod evaluate;
 pub mod gp;
+pub mod input;
+pub mod progress;
 pub mod random;
 pub mod reference;
 pub mod surface;
+pub mod train;

@@ -9,12 +9,12 @@ use rand_chacha::ChaCha8Rng;
 /// What a stream of random numbers is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// Rays for training and test points.
-    TrainingRays,
-    /// Rays for the points that a template is evaluated on.
-    EvaluationRays,
-    /// Rays for simulated observations.
-    ObservationRays,
+    /// Surface points for fitting a template, and the held-out ones that measure σ̂.
+    Training,
+    /// Surface points that a finished template is measured on.
+    Evaluation,
+    /// Surface points for simulated observations.
+    Demonstration,
     /// Where k-means starts.
     Clustering,
     /// Which points hyperparameters are learned on.

@@ -215,7 +215,7 @@ fn sample(
         &caster,
         options.points + options.test_points,
         options.seed,
-        Purpose::TrainingRays,
+        Purpose::Training,
     )?
     .into_iter()
     .map(|point| point.position)

@@ -184,10 +184,7 @@ mod tests {
     };
     const GOOD: &str = "inlier,x,y,X,Y,Z,conf\n1.0,10,20,1,2,3,0.5\n0.0,11,21,4,5,6,0.25\n";
 
-    fn read(
-        text: &str,
-        options: CorrespondenceOptions,
-    ) -> Result<Vec<Correspondence>, String> {
+    fn read(text: &str, options: CorrespondenceOptions) -> Result<Vec<Correspondence>, String> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("7_corr.txt");
         std::fs::write(&path, text).unwrap();
@@ -212,20 +209,29 @@ mod tests {
     #[test]
     fn columns_come_in_any_order_and_strangers_are_ignored() {
         let text = "Z,Y,X,class,y,x\n3,2,1,driver,20,10\n";
-        assert_eq!(read(text, UNIFORM).unwrap(), read(GOOD, UNIFORM).unwrap()[..1]);
+        assert_eq!(
+            read(text, UNIFORM).unwrap(),
+            read(GOOD, UNIFORM).unwrap()[..1]
+        );
     }
 
     #[test]
     fn what_is_wrong_is_named_with_row_and_column() {
         for (text, expected) in [
             ("x,y,X,Y\n1,2,3,4\n", "column \"Z\" is missing"),
-            ("x,y,X,Y,Z\n1,2,3,4,5\n1,2,wide,4,5\n", "row 3, column \"X\": expected a number, found \"wide\""),
+            (
+                "x,y,X,Y,Z\n1,2,3,4,5\n1,2,wide,4,5\n",
+                "row 3, column \"X\": expected a number, found \"wide\"",
+            ),
             ("x,y,X,Y,Z\n1,2,3,4\n", "row 2: expected 5 fields, found 4"),
             ("", "column \"x\" is missing"),
         ] {
             let error = read(text, UNIFORM).unwrap_err();
             assert!(error.contains(expected), "{error}");
-            assert!(error.contains("7_corr.txt") && !error.contains('\n'), "{error}");
+            assert!(
+                error.contains("7_corr.txt") && !error.contains('\n'),
+                "{error}"
+            );
         }
         let weighted = CorrespondenceOptions {
             weighting: Weighting::Confidence,

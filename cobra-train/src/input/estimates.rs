@@ -157,9 +157,10 @@ fn numbers<const N: usize>(
         .ok_or_else(|| form(path, &place, expected, value))?;
     let mut numbers = [0.0; N];
     for (index, (number, value)) in numbers.iter_mut().zip(list).enumerate() {
-        *number = value.as_f64().ok_or_else(|| {
-            form(path, &format!("{place}[{index}]"), "a number", value)
-        })? as f32;
+        *number = value
+            .as_f64()
+            .ok_or_else(|| form(path, &format!("{place}[{index}]"), "a number", value))?
+            as f32;
     }
     Ok(numbers)
 }
@@ -202,17 +203,44 @@ mod tests {
     #[test]
     fn what_is_missing_or_wrong_is_named_with_its_place() {
         for (from, to, expected) in [
-            ("0,0,500]", "0,500]", "7[0].cam_t_m2c: expected 3 numbers, found a list of 2"),
-            ("cam_t_m2c\": [0,0,1]", "t\": [0,0,1]", "3[0].cam_t_m2c: expected 3 numbers, found nothing"),
-            ("0,0,500]", "0,\"far\",500]", "7[0].cam_t_m2c[1]: expected a number, found \"far\""),
-            ("[1,0,0,0,1,0,0,0,1]", "[1,0,0,0,1,0,0,0,-1]", "pose 7: R mirrors"),
-            ("[1,0,0,0,1,0,0,0,1]", "[1,0,0,0,1,0,0,0,0.9997]", "--orthonormalise"),
-            ("[1,0,0,0,1,0,0,0,1]", "[1,0,0,0,1,0,0,0,1e39]", "not finite"),
+            (
+                "0,0,500]",
+                "0,500]",
+                "7[0].cam_t_m2c: expected 3 numbers, found a list of 2",
+            ),
+            (
+                "cam_t_m2c\": [0,0,1]",
+                "t\": [0,0,1]",
+                "3[0].cam_t_m2c: expected 3 numbers, found nothing",
+            ),
+            (
+                "0,0,500]",
+                "0,\"far\",500]",
+                "7[0].cam_t_m2c[1]: expected a number, found \"far\"",
+            ),
+            (
+                "[1,0,0,0,1,0,0,0,1]",
+                "[1,0,0,0,1,0,0,0,-1]",
+                "pose 7: R mirrors",
+            ),
+            (
+                "[1,0,0,0,1,0,0,0,1]",
+                "[1,0,0,0,1,0,0,0,0.9997]",
+                "--orthonormalise",
+            ),
+            (
+                "[1,0,0,0,1,0,0,0,1]",
+                "[1,0,0,0,1,0,0,0,1e39]",
+                "not finite",
+            ),
             ("{\"7\"", "{7", "not valid JSON"),
         ] {
             let error = read(&GOOD.replacen(from, to, 1)).unwrap_err();
             assert!(error.contains(expected), "{error}");
-            assert!(error.contains("poses.json") && !error.contains('\n'), "{error}");
+            assert!(
+                error.contains("poses.json") && !error.contains('\n'),
+                "{error}"
+            );
         }
         assert!(read("[]").unwrap_err().contains("an object with image ids"));
         assert!(read("{}").unwrap_err().contains("at least one pose"));

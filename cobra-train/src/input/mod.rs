@@ -13,4 +13,4 @@ pub use correspondences::{
     CorrespondenceOptions, ReadCorrespondencesError, Weighting, read_correspondences,
 };
 pub use estimates::{Estimate, ReadEstimatesError, RotationRepair, read_estimates};
-pub use scale::{ScaleDoubt, doubt_pose_scale, doubt_point_scale};
+pub use scale::{ScaleDoubt, doubt_point_scale, doubt_pose_scale};
