@@ -6,6 +6,8 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::diameter::diameter;
+
 /// A triangle mesh with at least one triangle of non-zero area, all of whose vertices are finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
@@ -13,6 +15,10 @@ pub struct Mesh {
     triangles: Vec<[u32; 3]>,
     dropped: usize,
 }
+
+/// The largest coordinate that is accepted, in the mesh's unit: areas are squared, and the square
+/// must stay finite.
+const MAX_COORDINATE: f64 = 1e60;
 
 /// Why a list of vertices and faces is not a surface.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -34,6 +40,16 @@ pub enum MeshError {
         y: f64,
         /// Its z coordinate.
         z: f64,
+    },
+    /// A coordinate is too large to be squared twice without overflow.
+    #[error(
+        "vertex {index} has the coordinate {coordinate:e}: at most {MAX_COORDINATE:e} is expected"
+    )]
+    TooFar {
+        /// The vertex, counted from 0.
+        index: usize,
+        /// The coordinate.
+        coordinate: f64,
     },
     /// A face names a vertex that does not exist.
     #[error("face {face} names vertex {index}, but the mesh has {vertices} vertices")]
@@ -70,7 +86,7 @@ impl Mesh {
     /// longest edge; such triangles are dropped and counted ([`Mesh::dropped_triangles`]).
     ///
     /// # Errors
-    /// [`MeshError`]: no faces, a coordinate that is not finite, a face that names a vertex that
+    /// [`MeshError`]: no faces, a coordinate that is not finite or too large, a face that names a vertex that
     /// does not exist, or no triangle with an area.
     pub fn new(
         vertices: Vec<Point3<f64>>,
@@ -89,6 +105,9 @@ impl Mesh {
                     y: vertex.y,
                     z: vertex.z,
                 });
+            }
+            if let Some(&coordinate) = vertex.iter().find(|c| c.abs() > MAX_COORDINATE) {
+                return Err(MeshError::TooFar { index, coordinate });
             }
         }
         for (face, triangle) in triangles.iter().enumerate() {
@@ -131,7 +150,7 @@ impl Mesh {
     }
 
     /// The vertices that some triangle uses, each once, in their order.
-    fn used_vertices(&self) -> impl Iterator<Item = &Point3<f64>> {
+    pub(super) fn used_vertices(&self) -> impl Iterator<Item = &Point3<f64>> {
         let mut used = vec![false; self.vertices.len()];
         for &i in self.triangles.iter().flatten() {
             used[i as usize] = true;
@@ -158,31 +177,11 @@ impl Mesh {
         BoundingSphere { centre, radius }
     }
 
-    /// The largest distance between two vertices (BOP's `diameter`).
-    ///
-    /// Exact: pairs are visited by falling distance from the centre, and a pair is skipped only
-    /// when the triangle inequality rules it out.
+    /// The largest distance between two vertices (BOP's `diameter`), exact. Vertices that no
+    /// triangle uses do not count.
     #[must_use]
     pub fn diameter(&self) -> f64 {
-        let sphere = self.bounding_sphere();
-        let mut by_distance: Vec<(f64, Point3<f64>)> = self
-            .used_vertices()
-            .map(|v| ((v - sphere.centre).norm(), *v))
-            .collect();
-        by_distance.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut best = 0.0_f64;
-        for (i, (ri, vi)) in by_distance.iter().enumerate() {
-            if ri + ri <= best {
-                break;
-            }
-            for (rj, vj) in &by_distance[i + 1..] {
-                if ri + rj <= best {
-                    break;
-                }
-                best = best.max((vi - vj).norm());
-            }
-        }
-        best
+        diameter(self.used_vertices().copied().collect())
     }
 
     /// The same mesh, moved and scaled so that `sphere` becomes the unit sphere at the origin.
@@ -207,4 +206,77 @@ fn has_area([a, b, c]: [Point3<f64>; 3]) -> bool {
         .max(ac.norm_squared())
         .max(bc.norm_squared());
     ab.cross(&ac).norm() > 1e-12 * longest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn corners() -> Vec<Point3<f64>> {
+        vec![
+            Point3::origin(),
+            Point3::new(4.0, 0.0, 0.0),
+            Point3::new(0.0, 3.0, 0.0),
+            Point3::new(2.0, 0.0, 0.0),
+            Point3::new(0.0, 0.0, 1000.0),
+        ]
+    }
+
+    #[test]
+    fn what_is_no_surface_is_refused() {
+        let refused = |vertices, triangles| Mesh::new(vertices, triangles).unwrap_err();
+        assert_eq!(
+            refused(corners(), vec![]),
+            MeshError::NoFaces { vertices: 5 }
+        );
+        assert_eq!(
+            refused(corners(), vec![[0, 1, 3], [1, 1, 2]]),
+            MeshError::NoArea { faces: 2 }
+        );
+        assert_eq!(
+            refused(corners(), vec![[0, 1, 2], [0, 1, 5]]),
+            MeshError::MissingVertex {
+                face: 1,
+                index: 5,
+                vertices: 5
+            }
+        );
+        let mut vertices = corners();
+        vertices[1].y = f64::NEG_INFINITY;
+        assert!(matches!(
+            refused(vertices.clone(), vec![[0, 1, 2]]),
+            MeshError::NotFinite { index: 1, .. }
+        ));
+        vertices[1].y = -1e61;
+        let error = refused(vertices, vec![[0, 1, 2]]);
+        assert_eq!(
+            error.to_string(),
+            "vertex 1 has the coordinate -1e61: at most 1e60 is expected"
+        );
+    }
+
+    #[test]
+    fn faces_without_area_are_dropped_and_counted() {
+        let mesh = Mesh::new(corners(), vec![[0, 1, 3], [0, 1, 2], [2, 2, 2]]).unwrap();
+        assert_eq!(mesh.triangles(), [[0, 1, 2]]);
+        assert_eq!(mesh.dropped_triangles(), 2);
+    }
+
+    #[test]
+    fn vertices_that_no_triangle_uses_do_not_count() {
+        let mesh = Mesh::new(corners(), vec![[0, 1, 2]]).unwrap();
+        assert_eq!(mesh.diameter(), 5.0);
+        let sphere = mesh.bounding_sphere();
+        assert_eq!(sphere.centre, Point3::new(2.0, 1.5, 0.0));
+        assert_eq!(sphere.radius, 2.5);
+    }
+
+    #[test]
+    fn a_normalised_mesh_fills_the_unit_sphere() {
+        let mesh = Mesh::new(corners(), vec![[0, 1, 2]]).unwrap();
+        let unit = mesh.normalised(&mesh.bounding_sphere());
+        let sphere = unit.bounding_sphere();
+        assert!(sphere.centre.coords.norm() < 1e-15);
+        assert!((sphere.radius - 1.0).abs() < 1e-15);
+    }
 }
