@@ -1,6 +1,13 @@
 //! The object's surface: where it comes from and how points on it are drawn.
 
+mod content;
 mod diameter;
 mod mesh;
+mod obj;
+mod ply;
+mod read;
+mod stl;
 
+pub use content::Place;
 pub use mesh::{BoundingSphere, Mesh, MeshError};
+pub use read::{ReadMeshError, read_mesh};
