@@ -5,9 +5,11 @@ mod diameter;
 mod mesh;
 mod obj;
 mod ply;
+mod raycast;
 mod read;
 mod stl;
 
 pub use content::Place;
 pub use mesh::{BoundingSphere, Mesh, MeshError};
+pub use raycast::{Hit, RayCaster};
 pub use read::{ReadMeshError, read_mesh};
