@@ -1,5 +1,6 @@
 //! The object's surface: where it comes from and how points on it are drawn.
 
+mod camera;
 mod content;
 mod diameter;
 mod mesh;
@@ -7,9 +8,12 @@ mod obj;
 mod ply;
 mod raycast;
 mod read;
+mod sample;
 mod stl;
 
+pub use camera::{CAMERA_DISTANCE, CAMERAS, fibonacci_sphere};
 pub use content::Place;
 pub use mesh::{BoundingSphere, Mesh, MeshError};
 pub use raycast::{Hit, RayCaster};
 pub use read::{ReadMeshError, read_mesh};
+pub use sample::{Purpose, SampleError, SurfacePoint, sample_visible};
