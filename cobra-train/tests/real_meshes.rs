@@ -1,0 +1,65 @@
+//! Real meshes from many sources: all of them are read, and sampled on their surface.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use cobra_train::surface::{Purpose, RayCaster, read_mesh, sample_visible};
+
+/// The folder of shared data, if there is one.
+fn shared() -> Option<PathBuf> {
+    let folder = std::env::var_os("COBRA_SHARED").map_or_else(
+        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared"),
+        PathBuf::from,
+    );
+    folder.join("data/meshes").is_dir().then_some(folder)
+}
+
+fn collect_meshes(folder: &Path, found: &mut Vec<PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return;
+    };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let extension = path.extension().and_then(|e| e.to_str());
+        if path.is_dir() {
+            collect_meshes(&path, found);
+        } else if matches!(extension, Some("ply" | "obj" | "stl")) {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn every_mesh_is_read_and_sampled_on_its_surface() {
+    let Some(shared) = shared() else {
+        println!("skipped: no shared data; COBRA_SHARED names its folder");
+        return;
+    };
+    let mut paths = Vec::new();
+    collect_meshes(&shared.join("data/meshes"), &mut paths);
+    collect_meshes(&shared.join("data/screwdriver"), &mut paths);
+    paths.sort();
+    assert!(!paths.is_empty());
+    let mut failures = Vec::new();
+    for path in &paths {
+        let start = Instant::now();
+        match farthest_sample(path) {
+            Ok(farthest) if farthest < 1e-9 => {
+                println!("{} {farthest:.1e} {:?}", path.display(), start.elapsed());
+            }
+            Ok(farthest) => failures.push(format!("{}: {farthest} off", path.display())),
+            Err(error) => failures.push(format!("{}: {error}", path.display())),
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// The largest distance from the mesh of 2,000 points sampled on it.
+fn farthest_sample(path: &Path) -> Result<f64, Box<dyn std::error::Error>> {
+    let mesh = read_mesh(path)?;
+    let mesh = mesh.normalised(&mesh.bounding_sphere());
+    let caster = RayCaster::new(&mesh);
+    let points = sample_visible(&mesh, &caster, 2000, 1, Purpose::Training)?;
+    assert_eq!(points.len(), 2000);
+    let distances = points.iter().map(|p| caster.distance(&p.position));
+    Ok(distances.fold(0.0, f64::max))
+}
