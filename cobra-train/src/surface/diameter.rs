@@ -4,10 +4,16 @@
 //! distance from the centre, or over the vertices of the convex hull, does not: on a sphere, where
 //! every point is a candidate.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Unit, center};
+
+/// More than rounding takes from a bound, as a share of it.
+const ROUNDING: f64 = 1e-12;
 
 /// Boxes with at most this many points are compared point by point.
 const LEAF: usize = 4;
+
+/// Boxes with at most this many points are bounded by the points themselves as well.
+const PATCH: usize = 64;
 
 /// The largest distance between two of the points; 0 for fewer than two.
 pub(super) fn diameter(mut points: Vec<Point3<f64>>) -> f64 {
@@ -23,17 +29,24 @@ pub(super) fn diameter(mut points: Vec<Point3<f64>>) -> f64 {
         if a.farthest_squared(b) <= best {
             continue;
         }
+        let few = LEAF + 1..=PATCH;
+        if few.contains(&a.count())
+            && few.contains(&b.count())
+            && patches_squared(a, b, &points) <= best
+        {
+            continue;
+        }
         match (a.children, b.children) {
             (None, None) => {
-                for p in &points[a.first..a.end] {
-                    for q in &points[b.first..b.end] {
+                for p in a.points(&points) {
+                    for q in b.points(&points) {
                         best = best.max(distance_squared(p, q));
                     }
                 }
             }
             (Some((l, r)), _) if i == j => pairs.extend([(l, l), (r, r), (l, r)]),
             (Some((l, r)), None) => push_farther_last(&mut pairs, &boxes, (l, j), (r, j)),
-            (Some((l, r)), Some(_)) if a.end - a.first >= b.end - b.first => {
+            (Some((l, r)), Some(_)) if a.count() >= b.count() => {
                 push_farther_last(&mut pairs, &boxes, (l, j), (r, j));
             }
             (_, Some((l, r))) => push_farther_last(&mut pairs, &boxes, (i, l), (i, r)),
@@ -52,6 +65,19 @@ struct Node {
 }
 
 impl Node {
+    fn count(&self) -> usize {
+        self.end - self.first
+    }
+
+    fn points<'a>(&self, all: &'a [Point3<f64>]) -> &'a [Point3<f64>] {
+        &all[self.first..self.end]
+    }
+
+    /// No point of the box is farther from its centre.
+    fn radius(&self, centre: &Point3<f64>) -> f64 {
+        (self.high - centre).sup(&(centre - self.low)).norm()
+    }
+
     /// No point of the one box is farther from a point of the other. Computed in the order of
     /// [`distance_squared`], all of whose steps are monotone, so that rounding cannot break this.
     fn farthest_squared(&self, other: &Self) -> f64 {
@@ -68,6 +94,32 @@ impl Node {
 fn distance_squared(p: &Point3<f64>, q: &Point3<f64>) -> f64 {
     let (x, y, z) = (p.x - q.x, p.y - q.y, p.z - q.z);
     x * x + y * y + z * z
+}
+
+/// A bound on the squared distances between the points of two boxes that knows that opposite
+/// patches of a round surface are flat along the line between them, where boxes are thick: the
+/// exact extent along that line, and the boxes' radii across it.
+fn patches_squared(a: &Node, b: &Node, points: &[Point3<f64>]) -> f64 {
+    let (from, to) = (center(&a.low, &a.high), center(&b.low, &b.high));
+    let Some((line, length)) = Unit::try_new_and_get(from - to, 0.0) else {
+        return f64::INFINITY;
+    };
+    let beyond_from = |p: &Point3<f64>| (p - from).dot(&line);
+    let beyond_to = |p: &Point3<f64>| (to - p).dot(&line);
+    let largest = |largest: f64, next: f64| largest.max(next);
+    let extent = length
+        + a.points(points)
+            .iter()
+            .map(beyond_from)
+            .fold(f64::MIN, largest)
+        + b.points(points)
+            .iter()
+            .map(beyond_to)
+            .fold(f64::MIN, largest);
+    let across = a.radius(&from) + b.radius(&to);
+    // Boxes that overlap may also extend past each other the other way.
+    let along = extent.max(across - length);
+    (along * along + across * across) * (1.0 + ROUNDING)
 }
 
 fn push_farther_last(
@@ -163,8 +215,9 @@ mod tests {
         let mut rng = ChaCha8Rng::seed_from_u64(7);
         for count in [2, 3, 5, 9, 100, 1500] {
             for stretch in [1.0, 0.01, 0.0] {
+                let aside = if count % 2 == 0 { 1e6 } else { 0.0 };
                 let points: Vec<_> = (0..count)
-                    .map(|_| Point3::from(rng.random::<[f64; 3]>()))
+                    .map(|_| Point3::from(rng.random::<[f64; 3]>().map(|c| c + aside)))
                     .map(|p| Point3::new(p.x, p.y * stretch, p.z))
                     .collect();
                 assert_eq!(diameter(points.clone()), by_comparing_all(&points));
