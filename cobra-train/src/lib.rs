@@ -1,3 +1,4 @@
 //! Trains, evaluates and applies COBRA shape templates.
 
+pub mod demo;
 pub mod surface;
