@@ -17,7 +17,7 @@
 //! | [`camera`] | pinhole intrinsics and back-projection |
 //! | [`pose`] | rotation and translation, checked |
 //! | [`mixture`] | the likelihood of one object-frame point under a template |
-//! | [`score`] | the streaming scorer, the confidence of Eq. 10, the decision |
+//! | [`mod@score`] | the streaming scorer, the confidence of Eq. 10, the decision |
 //! | [`bound`] | the threshold of Eq. 11 |
 //! | [`tolerance`] | every tolerance this crate applies, in one table |
 //! | [`math`] | the only place that knows `libm` |

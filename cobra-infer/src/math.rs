@@ -96,27 +96,23 @@ pub fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     (a0 * b0 + a1 * b1) + a2 * b2
 }
 
-/// Neumaier's compensated sum: the rounding error of a long stream of terms does not grow with its
-/// length.
+/// Kahan's compensated sum: the rounding error of a long stream of terms ≥ 0 does not grow with
+/// its length.
 ///
-/// Reference: A. Neumaier, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen,
-/// ZAMM 54 (1974).
+/// Reference: W. Kahan, Further remarks on reducing truncation errors, Comm. ACM 8 (1965).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CompensatedSum {
     sum: f32,
-    lost: f32,
+    excess: f32,
 }
 
 impl CompensatedSum {
     /// Adds one term.
     #[inline]
     pub fn add(&mut self, term: f32) {
-        let sum = self.sum + term;
-        self.lost += if abs(self.sum) >= abs(term) {
-            (self.sum - sum) + term
-        } else {
-            (term - sum) + self.sum
-        };
+        let corrected = term - self.excess;
+        let sum = self.sum + corrected;
+        self.excess = (sum - self.sum) - corrected;
         self.sum = sum;
     }
 
@@ -124,7 +120,7 @@ impl CompensatedSum {
     #[inline]
     #[must_use]
     pub fn value(&self) -> f32 {
-        self.sum + self.lost
+        self.sum
     }
 }
 

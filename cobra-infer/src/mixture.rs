@@ -1,7 +1,7 @@
 //! The likelihood of one object-frame point under a template (Eqs. 8 and 9).
 //!
 //! Owns which component speaks for a point and how probable that component finds it. Averaging
-//! over points is the scorer's ([`crate::score`]).
+//! over points is the scorer's ([`mod@crate::score`]).
 
 use crate::bound;
 use crate::error::ScoreError;

@@ -1,5 +1,6 @@
 //! Trains, evaluates and applies COBRA shape templates.
 
+pub mod demo;
 pub mod evaluate;
 pub mod gp;
 pub mod input;

@@ -17,6 +17,8 @@ pub enum Purpose {
     Demonstration,
     /// Where k-means starts.
     Clustering,
+    /// Which points placements of reference points are judged by.
+    Selection,
     /// Which points hyperparameters are learned on.
     HyperparameterSubset,
     /// Simulated pose errors.

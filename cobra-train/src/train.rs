@@ -24,6 +24,9 @@ pub const LARGEST_TEMPLATE: usize = 1024;
 /// fits perfectly, such as a sphere, would otherwise have none.
 pub const SMALLEST_SIGMA_HAT: f64 = 1e-6;
 
+/// How many k-means results are compared.
+const PLACEMENTS: usize = 32;
+
 /// Where the reference points come from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ReferencePoints {
@@ -68,7 +71,7 @@ impl TrainOptions {
             reference_points: ReferencePoints::KMeans { components: 16 },
             fit: FitOptions {
                 kernel: Kernel::RationalQuadratic(Exponent::One),
-                prior_mean: PriorMean::Zero,
+                prior_mean: PriorMean::Average,
                 subset: 300,
             },
             seed: 0,
@@ -236,7 +239,9 @@ fn place(
     let centres = match &options.reference_points {
         ReferencePoints::KMeans { components } => {
             check_count(*components)?;
-            reference::kmeans(training, *components, options.seed)?
+            let placements = reference::kmeans(training, *components, PLACEMENTS, options.seed)?;
+            reference::most_explanatory(training, placements, &options.fit, options.seed)
+                .unwrap_or_default()
         }
         ReferencePoints::Given(given) => {
             check_count(given.len())?;

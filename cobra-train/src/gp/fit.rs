@@ -1,7 +1,7 @@
 //! Fitting one component: from points around a reference point to directions and weights.
 
 use super::cholesky::{Cholesky, NotPositiveDefinite};
-use super::likelihood::{gram, squared_distances};
+use super::likelihood::{covariance, gram, squared_distances};
 use super::optimise::{Learned, OptimiserError, learn};
 use cobra_infer::Kernel;
 use nalgebra::{Point3, UnitVector3};
@@ -82,32 +82,17 @@ pub fn fit(
     options: &FitOptions,
     rng: &mut impl Rng,
 ) -> Result<FittedGp, FitError> {
-    let (directions, distances): (Vec<_>, Vec<_>) = points
-        .iter()
-        .filter_map(|point| UnitVector3::try_new_and_get(point - centre, SMALLEST_DISTANCE))
-        .unzip();
-    let found = directions.len();
-    if found == 0 {
-        return Err(FitError::NoPoints);
-    }
+    let data = TrainingData::new(centre, points, options.prior_mean)?;
+    let found = data.targets.len();
     if found > LARGEST_GP {
         return Err(FitError::TooManyPoints { found });
     }
-    let prior_mean = match options.prior_mean {
-        PriorMean::Zero => 0.0,
-        PriorMean::Average => distances.iter().sum::<f64>() / found as f64,
-    };
-    let targets: Vec<f64> = distances.iter().map(|d| d - prior_mean).collect();
-
-    let subset = index::sample(rng, found, options.subset.clamp(1, found)).into_vec();
-    let subset_directions: Vec<_> = subset.iter().map(|&i| directions[i]).collect();
-    let subset_targets: Vec<_> = subset.iter().map(|&i| targets[i]).collect();
-    let learned = learn(
-        options.kernel,
-        &squared_distances(&subset_directions),
-        &subset_targets,
-    )?;
-
+    let (_, learned) = data.learn(options, rng)?;
+    let TrainingData {
+        directions,
+        targets,
+        prior_mean,
+    } = data;
     let h = &learned.hyperparameters;
     let factor = Cholesky::new(gram(options.kernel, h, &squared_distances(&directions)))?;
     let weights = factor
@@ -121,4 +106,88 @@ pub fn fit(
         prior_mean,
         learned,
     })
+}
+
+/// How many of the points a Gaussian process explains that was fitted to a few of them.
+///
+/// The process is fitted to a random subset of `options.subset` points; a point is explained when
+/// the posterior mean in its direction lies within `tolerance` of its distance.
+///
+/// # Errors
+/// [`FitError`].
+pub fn explained(
+    centre: &Point3<f64>,
+    points: &[Point3<f64>],
+    tolerance: f64,
+    options: &FitOptions,
+    rng: &mut impl Rng,
+) -> Result<usize, FitError> {
+    let data = TrainingData::new(centre, points, options.prior_mean)?;
+    let (few, learned) = data.learn(options, rng)?;
+    let h = &learned.hyperparameters;
+    let squared = squared_distances(&few.directions);
+    let weights = Cholesky::new(gram(options.kernel, h, &squared))?.solve(&few.targets);
+    Ok(data
+        .directions
+        .iter()
+        .zip(&data.targets)
+        .filter(|(direction, target)| {
+            let mean: f64 = few
+                .directions
+                .iter()
+                .zip(&weights)
+                .map(|(other, weight)| {
+                    let s = (direction.into_inner() - other.into_inner()).norm_squared();
+                    weight * h.signal_variance * covariance(options.kernel, h, s)
+                })
+                .sum();
+            (*target - mean).abs() <= tolerance
+        })
+        .count())
+}
+
+/// Points as the Gaussian process sees them.
+struct TrainingData {
+    directions: Vec<UnitVector3<f64>>,
+    targets: Vec<f64>,
+    prior_mean: f64,
+}
+
+impl TrainingData {
+    fn new(
+        centre: &Point3<f64>,
+        points: &[Point3<f64>],
+        prior_mean: PriorMean,
+    ) -> Result<Self, FitError> {
+        let (directions, distances): (Vec<_>, Vec<_>) = points
+            .iter()
+            .filter_map(|point| UnitVector3::try_new_and_get(point - centre, SMALLEST_DISTANCE))
+            .unzip();
+        if distances.is_empty() {
+            return Err(FitError::NoPoints);
+        }
+        let prior_mean = match prior_mean {
+            PriorMean::Zero => 0.0,
+            PriorMean::Average => distances.iter().sum::<f64>() / distances.len() as f64,
+        };
+        Ok(Self {
+            directions,
+            targets: distances.iter().map(|d| d - prior_mean).collect(),
+            prior_mean,
+        })
+    }
+
+    /// A random subset, and the hyperparameters that make it most probable.
+    fn learn(&self, options: &FitOptions, rng: &mut impl Rng) -> Result<(Self, Learned), FitError> {
+        let found = self.targets.len();
+        let subset = index::sample(rng, found, options.subset.clamp(1, found)).into_vec();
+        let few = Self {
+            directions: subset.iter().map(|&i| self.directions[i]).collect(),
+            targets: subset.iter().map(|&i| self.targets[i]).collect(),
+            prior_mean: self.prior_mean,
+        };
+        let squared = squared_distances(&few.directions);
+        let learned = learn(options.kernel, &squared, &few.targets)?;
+        Ok((few, learned))
+    }
 }

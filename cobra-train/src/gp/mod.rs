@@ -9,7 +9,7 @@ mod likelihood;
 mod optimise;
 
 pub use cholesky::{Cholesky, NotPositiveDefinite};
-pub use fit::{FitError, FitOptions, FittedGp, LARGEST_GP, PriorMean, fit};
+pub use fit::{FitError, FitOptions, FittedGp, LARGEST_GP, PriorMean, explained, fit};
 pub use likelihood::{
     Hyperparameters, LikelihoodAndGradient, covariance, gram, negative_log_marginal_likelihood,
     squared_distances,

@@ -14,7 +14,7 @@ use std::convert::Infallible;
 
 /// The smallest noise variance, in units of the unit sphere: below it, weights grow so large that
 /// the controller's `f32` sum loses more than a hundredth of σ̂.
-pub const NOISE_FLOOR: f64 = 1e-7;
+pub const NOISE_FLOOR: f64 = 1e-5;
 
 /// L-BFGS-B iterations; the likelihood is flat long before.
 const ITERATIONS: u64 = 60;

@@ -10,9 +10,6 @@ use nalgebra::{Point3, Vector3};
 use rand::{Rng, RngExt};
 use rayon::prelude::*;
 
-/// Independent starts; the one with the least inertia is kept.
-const STARTS: u64 = 4;
-
 /// Lloyd's iterations; a few dozen suffice for surfaces.
 const ITERATIONS: usize = 300;
 
@@ -32,15 +29,19 @@ pub enum ClusterError {
     },
 }
 
-/// `components` cluster centres of `points`: same points and seed, same bits.
+/// Cluster centres of `points` from `starts` independent starts: same points and seed, same bits.
+///
+/// The starts are returned as they come: which one makes the best reference points is not a
+/// question of inertia, so the caller decides.
 ///
 /// # Errors
 /// [`ClusterError`].
 pub fn kmeans(
     points: &[Point3<f64>],
     components: usize,
+    starts: usize,
     seed: u64,
-) -> Result<Vec<Point3<f64>>, ClusterError> {
+) -> Result<Vec<Vec<Point3<f64>>>, ClusterError> {
     if components == 0 {
         return Err(ClusterError::NoComponents);
     }
@@ -51,17 +52,13 @@ pub fn kmeans(
             points: distinct,
         });
     }
-    let runs: Vec<(f64, Vec<Point3<f64>>)> = (0..STARTS)
+    Ok((0..starts)
         .into_par_iter()
         .map(|start| {
-            let mut rng = stream(seed, Purpose::Clustering, start);
+            let mut rng = stream(seed, Purpose::Clustering, start as u64);
             lloyd(points, plus_plus(points, components, &mut rng))
         })
-        .collect();
-    let best = runs
-        .into_iter()
-        .reduce(|best, run| if run.0 < best.0 { run } else { best });
-    Ok(best.map(|(_, centres)| centres).unwrap_or_default())
+        .collect())
 }
 
 fn count_distinct(points: &[Point3<f64>]) -> usize {
@@ -122,13 +119,11 @@ fn draw(weights: &[f64], target: f64) -> usize {
     last
 }
 
-/// Lloyd's algorithm until no point changes its cluster: inertia and centres.
-fn lloyd(points: &[Point3<f64>], mut centres: Vec<Point3<f64>>) -> (f64, Vec<Point3<f64>>) {
+/// Lloyd's algorithm until no point changes its cluster.
+fn lloyd(points: &[Point3<f64>], mut centres: Vec<Point3<f64>>) -> Vec<Point3<f64>> {
     let mut labels = vec![usize::MAX; points.len()];
-    let mut inertia = f64::INFINITY;
     for _ in 0..ITERATIONS {
         let assigned: Vec<(usize, f64)> = points.iter().map(|p| nearest(p, &centres)).collect();
-        inertia = assigned.iter().map(|(_, squared)| squared).sum();
         let changed = assigned
             .iter()
             .zip(&labels)
@@ -155,7 +150,7 @@ fn lloyd(points: &[Point3<f64>], mut centres: Vec<Point3<f64>>) -> (f64, Vec<Poi
         }
         labels = assigned.into_iter().map(|(label, _)| label).collect();
     }
-    (inertia, centres)
+    centres
 }
 
 #[cfg(test)]
@@ -179,7 +174,7 @@ mod tests {
                 .num_threads(threads)
                 .build()
                 .unwrap()
-                .install(|| kmeans(&points, 7, 3).unwrap())
+                .install(|| kmeans(&points, 7, 3, 3).unwrap())
         };
         assert_eq!(run(1), run(3));
     }
@@ -192,7 +187,8 @@ mod tests {
                 Point3::new(f64::from(i % 3) * 10.0 + jitter, 0.0, 0.0)
             })
             .collect();
-        let mut xs: Vec<f64> = kmeans(&points, 3, 0).unwrap().iter().map(|c| c.x).collect();
+        let centres = &kmeans(&points, 3, 1, 0).unwrap()[0];
+        let mut xs: Vec<f64> = centres.iter().map(|c| c.x).collect();
         xs.sort_by(f64::total_cmp);
         for (x, expected) in xs.iter().zip([0.0495, 10.0495, 20.0495]) {
             assert!((x - expected).abs() < 1e-9, "{xs:?}");
@@ -203,19 +199,19 @@ mod tests {
     fn more_components_than_distinct_points_are_refused() {
         let points = vec![Point3::origin(); 50];
         assert_eq!(
-            kmeans(&points, 2, 0),
+            kmeans(&points, 2, 1, 0),
             Err(ClusterError::TooFewPoints {
                 components: 2,
                 points: 1
             })
         );
-        assert!(kmeans(&points, 1, 0).is_ok());
-        assert_eq!(kmeans(&points, 0, 0), Err(ClusterError::NoComponents));
+        assert!(kmeans(&points, 1, 1, 0).is_ok());
+        assert_eq!(kmeans(&points, 0, 1, 0), Err(ClusterError::NoComponents));
     }
 
     #[test]
     fn as_many_components_as_points_terminate() {
         let points: Vec<_> = grid().into_iter().take(20).collect();
-        assert_eq!(kmeans(&points, 20, 1).unwrap().len(), 20);
+        assert_eq!(kmeans(&points, 20, 1, 1).unwrap()[0].len(), 20);
     }
 }

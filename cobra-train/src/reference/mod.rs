@@ -4,9 +4,11 @@
 
 mod given;
 mod kmeans;
+mod select;
 
 pub use given::{ReadReferencePointsError, read_reference_points};
 pub use kmeans::{ClusterError, kmeans};
+pub use select::most_explanatory;
 
 use nalgebra::Point3;
 use rayon::prelude::*;

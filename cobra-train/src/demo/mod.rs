@@ -1,0 +1,21 @@
+//! The demonstration: an object, simulated pose estimates of it, and a picture of what COBRA
+//! decides about them.
+
+mod axis;
+mod camera;
+mod canvas;
+mod image;
+mod outline;
+mod panel;
+mod part;
+mod picture;
+mod render;
+mod scatter;
+mod solid;
+mod style;
+
+pub use camera::Camera;
+pub use image::RgbImage;
+pub use part::mechanical_part;
+pub use picture::{Decision, PictureError, ScoredPose, draw, encode_png};
+pub use render::{Look, Renderer};
