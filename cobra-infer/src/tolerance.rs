@@ -11,8 +11,8 @@ pub const UNIT_DIRECTION: f32 = 1e-5;
 pub const ROTATION: f32 = 1e-4;
 
 /// A matrix can be orthonormalised when every entry of RᵀR − I is at most this: beyond it, it is
-/// no damaged rotation but something else.
-pub const ORTHONORMALISABLE: f32 = 0.1;
+/// no damaged rotation but something else. Published pose files hold matrices that are off by 0.11.
+pub const ORTHONORMALISABLE: f32 = 0.2;
 
 /// A point closer to a reference point than this share of the bounding sphere's radius has no
 /// direction from it, so that component says nothing about it.

@@ -3,6 +3,7 @@
 //! Owns the paper's definitions (its supplement, Metrics). Predictions come from the scorer's own
 //! mixture, so that what is measured is what will run.
 
+use crate::output::{WriteError, write_whole};
 use crate::train::LARGEST_TEMPLATE;
 use cobra_infer::mixture::Match;
 use cobra_infer::{Assignment, Mixture, ScoreError, Settings, Template};
@@ -10,6 +11,7 @@ use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 use serde::Serialize;
+use std::path::Path;
 
 /// τ: a point is reproduced when the other set has a point nearer than this (unit sphere).
 pub const TAU: f64 = 0.01;
@@ -36,6 +38,18 @@ pub struct ResidualSummary {
     pub median: f64,
     /// 95th percentile.
     pub p95: f64,
+}
+
+impl ResidualSummary {
+    /// The same in another unit.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            rms: factor * self.rms,
+            median: factor * self.median,
+            p95: factor * self.p95,
+        }
+    }
 }
 
 /// A surface point and what the template predicts in its direction.
@@ -167,6 +181,34 @@ fn squared_distances(from: &[[f64; 3]], to: &[[f64; 3]]) -> Vec<f64> {
                 .distance
         })
         .collect()
+}
+
+/// Writes predicted points as a PLY cloud: `x y z`, `residual` (signed, template's unit) and
+/// `component`.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn write_points(path: &Path, points: &[PredictedPoint]) -> Result<(), WriteError> {
+    let mut text = String::from("ply\nformat ascii 1.0\n");
+    text += &format!("element vertex {}\n", points.len());
+    for property in [
+        "float x",
+        "float y",
+        "float z",
+        "float residual",
+        "int component",
+    ] {
+        text += &format!("property {property}\n");
+    }
+    text += "end_header\n";
+    for point in points {
+        let [x, y, z] = [point.position.x, point.position.y, point.position.z];
+        text += &format!(
+            "{} {} {} {} {}\n",
+            x as f32, y as f32, z as f32, point.residual as f32, point.component
+        );
+    }
+    write_whole(path, text.as_bytes())
 }
 
 fn summarise(mut magnitudes: Vec<f64>) -> ResidualSummary {

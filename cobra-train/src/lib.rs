@@ -4,6 +4,8 @@ pub mod demo;
 pub mod evaluate;
 pub mod gp;
 pub mod input;
+pub mod output;
+pub mod pose;
 pub mod progress;
 pub mod random;
 pub mod reference;

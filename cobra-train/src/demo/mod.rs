@@ -11,11 +11,13 @@ mod part;
 mod picture;
 mod render;
 mod scatter;
+mod simulate;
 mod solid;
 mod style;
 
 pub use camera::Camera;
 pub use image::RgbImage;
 pub use part::mechanical_part;
-pub use picture::{Decision, PictureError, ScoredPose, draw, encode_png};
+pub use picture::{PictureError, ScoredPose, Verdict, draw, encode_png};
 pub use render::{Look, Renderer};
+pub use simulate::{SimulatedEstimate, VIEW, simulate};

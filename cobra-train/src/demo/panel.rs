@@ -28,7 +28,7 @@ pub(super) fn rendering_corner((left, top): (i32, i32)) -> (u32, u32) {
 
 /// Draws everything but the rendering of the panel with this upper left corner.
 pub(super) fn draw(page: &Page, (left, top): (i32, i32), index: usize, pose: &ScoredPose) -> Drawn {
-    let colour = pose.decision.colour();
+    let colour = pose.verdict.colour();
     let right = left + WIDTH;
     let floor = top + IMAGE_HEIGHT;
     for (from, to) in [
@@ -40,12 +40,12 @@ pub(super) fn draw(page: &Page, (left, top): (i32, i32), index: usize, pose: &Sc
         let side = [from, (to.0 - 1, to.1 - 1)];
         page.draw(&Rectangle::new(side, colour.filled()))?;
     }
-    letter(page, pose.decision, index, (left + px(24), top + px(24)))?;
-    seal(page, pose.decision, (right - px(25), top + px(25)))?;
+    letter(page, pose.verdict, index, (left + px(24), top + px(24)))?;
+    seal(page, pose.verdict, (right - px(25), top + px(25)))?;
 
     let verdict = floor + px(19);
     page.draw(&Text::new(
-        pose.decision.verdict(),
+        pose.verdict.verdict(),
         (left, verdict),
         bold(17, colour, HPos::Left, VPos::Center),
     ))?;
@@ -72,7 +72,7 @@ fn gauge(page: &Page, (left, middle): (i32, i32), width: i32, pose: &ScoredPose)
         page.draw(&Rectangle::new(corners, colour.filled()))
     };
     bar(left, left + width, px(5), HAIRLINE)?;
-    bar(left, at(pose.confidence), px(5), pose.decision.colour())?;
+    bar(left, at(pose.confidence), px(5), pose.verdict.colour())?;
     let threshold = at(pose.threshold);
     bar(threshold - px(2), threshold + px(2), px(9), PAPER)?;
     bar(threshold - px(1), threshold + px(1), px(9), INK)

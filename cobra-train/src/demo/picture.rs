@@ -19,13 +19,23 @@ use crate::surface::Mesh;
 
 /// What was decided about a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Decision {
+pub enum Verdict {
     /// The pose may be acted on.
     Accept,
     /// The pose may not be acted on.
     Reject,
     /// The measurement does not suffice to decide.
     Undecided,
+}
+
+impl From<cobra_infer::Decision> for Verdict {
+    fn from(decision: cobra_infer::Decision) -> Self {
+        match decision {
+            cobra_infer::Decision::Accept => Verdict::Accept,
+            cobra_infer::Decision::Reject(_) => Verdict::Reject,
+            cobra_infer::Decision::Undecided(_) => Verdict::Undecided,
+        }
+    }
 }
 
 /// An estimate of a pose, its true error and what was decided about it.
@@ -39,10 +49,10 @@ pub struct ScoredPose {
     pub error_mm: f64,
     /// The confidence, from 0 to 1.
     pub confidence: f64,
-    /// The confidence from which on a pose is accepted: the same for all poses of a picture.
+    /// The confidence from which on the pose is accepted.
     pub threshold: f64,
     /// What was decided.
-    pub decision: Decision,
+    pub verdict: Verdict,
 }
 
 /// Why there is no picture.
@@ -64,18 +74,6 @@ pub enum PictureError {
         confidence: f64,
         /// Its threshold.
         threshold: f64,
-    },
-    /// Two poses were held against different thresholds.
-    #[error(
-        "pose {index} has the threshold {threshold}, the poses before it {expected}: a picture shows one"
-    )]
-    Thresholds {
-        /// The pose, counted from 0.
-        index: usize,
-        /// Its threshold.
-        threshold: f64,
-        /// The first pose's threshold.
-        expected: f64,
     },
     /// The object is not wholly in front of the camera.
     #[error("the true pose {index} does not put the whole object in front of the camera")]
@@ -106,8 +104,7 @@ const ROWS: usize = 2;
 /// the object. The same arguments draw the same bytes.
 ///
 /// # Errors
-/// [`PictureError`]: there are no poses, a figure is not finite, the thresholds differ, or a
-/// shown object is not wholly in front of the camera.
+/// [`PictureError`]: there are no poses, a figure is not finite, or a shown object is not wholly in front of the camera.
 pub fn draw(
     mesh: &Mesh,
     camera: &Camera,
@@ -139,7 +136,9 @@ pub fn encode_png(image: &RgbImage) -> Result<Vec<u8>, PictureError> {
 }
 
 fn check(poses: &[ScoredPose]) -> Result<(), PictureError> {
-    let expected = poses.first().ok_or(PictureError::NoPoses)?.threshold;
+    if poses.is_empty() {
+        return Err(PictureError::NoPoses);
+    }
     for (index, pose) in poses.iter().enumerate() {
         let &ScoredPose {
             error_mm,
@@ -156,13 +155,6 @@ fn check(poses: &[ScoredPose]) -> Result<(), PictureError> {
                 error_mm,
                 confidence,
                 threshold,
-            });
-        }
-        if threshold != expected {
-            return Err(PictureError::Thresholds {
-                index,
-                threshold,
-                expected,
             });
         }
     }
@@ -200,10 +192,10 @@ fn render(
             let view = camera
                 .framing(&placed(&pose.truth), &placed(&pose.pose), width, height)
                 .ok_or(PictureError::BehindCamera { index })?;
-            let (red, green, blue) = pose.decision.colour().rgb();
+            let (red, green, blue) = pose.verdict.colour().rgb();
             let look = Look {
                 estimate: [red, green, blue],
-                background: pose.decision.background(),
+                background: pose.verdict.background(),
                 pen: f64::from(px(5)) / 2.0,
             };
             Ok(renderer.render(&view, &pose.truth, &pose.pose, &look))
@@ -261,7 +253,7 @@ mod tests {
         height: 480,
     };
 
-    fn pose(error_mm: f64, decision: Decision) -> ScoredPose {
+    fn pose(error_mm: f64, decision: Verdict) -> ScoredPose {
         let truth = Isometry3::translation(0.0, 0.0, 600.0);
         ScoredPose {
             truth,
@@ -269,13 +261,13 @@ mod tests {
             error_mm,
             confidence: 1.0 / (1.0 + error_mm),
             threshold: 0.5,
-            decision,
+            verdict: decision,
         }
     }
 
     #[test]
     fn the_same_poses_draw_the_same_bytes() {
-        let poses = [pose(9.0, Decision::Undecided)];
+        let poses = [pose(9.0, Verdict::Undecided)];
         let part = mechanical_part();
         let picture = || draw(&part, &CAMERA, &poses, "Title").unwrap();
         let first = picture();
@@ -286,14 +278,14 @@ mod tests {
 
     #[test]
     fn a_picture_has_the_colours_of_its_decisions_only() {
-        let count = |image: &RgbImage, decision: Decision| {
+        let count = |image: &RgbImage, decision: Verdict| {
             let (red, green, blue) = decision.colour().rgb();
             let pixels = image.pixels.as_chunks::<3>().0;
             pixels.iter().filter(|&p| *p == [red, green, blue]).count()
         };
-        for decision in [Decision::Accept, Decision::Reject] {
+        for decision in [Verdict::Accept, Verdict::Reject] {
             let image = draw(&mechanical_part(), &CAMERA, &[pose(2.0, decision)], "").unwrap();
-            for other in Decision::ALL {
+            for other in Verdict::ALL {
                 assert_eq!(count(&image, other) > 1000, other == decision, "{other:?}");
             }
         }
@@ -302,7 +294,7 @@ mod tests {
     #[test]
     fn shown_poses_are_evenly_spread_over_the_ranks_of_the_errors() {
         let poses: Vec<_> = (0..199)
-            .map(|i| pose(f64::from((i * 70) % 199), Decision::Accept))
+            .map(|i| pose(f64::from((i * 70) % 199), Verdict::Accept))
             .collect();
         let errors: Vec<_> = evenly_ranked(&poses, 10)
             .iter()
@@ -319,7 +311,7 @@ mod tests {
         let refusal = |poses: &[ScoredPose]| draw(&part, &CAMERA, poses, "").unwrap_err();
         assert!(matches!(refusal(&[]), PictureError::NoPoses));
 
-        let good = pose(1.0, Decision::Accept);
+        let good = pose(1.0, Verdict::Accept);
         let unknown = ScoredPose {
             confidence: f64::NAN,
             ..good
@@ -327,14 +319,6 @@ mod tests {
         assert!(matches!(
             refusal(&[good, unknown]),
             PictureError::NotFinite { index: 1, .. }
-        ));
-        let other = ScoredPose {
-            threshold: 0.4,
-            ..good
-        };
-        assert!(matches!(
-            refusal(&[good, other]),
-            PictureError::Thresholds { index: 1, .. }
         ));
         let behind = ScoredPose {
             truth: Isometry3::translation(0.0, 0.0, -600.0),

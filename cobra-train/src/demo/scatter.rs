@@ -5,7 +5,7 @@ use plotters::style::FontTransform;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::ErrorAxis;
-use super::picture::{Decision, ScoredPose};
+use super::picture::{ScoredPose, Verdict};
 use super::style::{Drawn, HAIRLINE, INK, Page, QUIET, bold, letter, mark, px, text};
 
 /// Draws the heading, the legend and the plot into the rectangle with this upper left corner.
@@ -55,8 +55,17 @@ pub(super) fn draw(
 
     let at =
         |pose: &ScoredPose| chart.backend_coord(&(pose.error_mm, pose.confidence.clamp(0.0, 1.0)));
-    if let Some(threshold) = poses.first().map(|pose| pose.threshold) {
-        let (_, y) = chart.backend_coord(&(0.0, threshold));
+    let mut thresholds: Vec<f64> = poses.iter().map(|pose| pose.threshold).collect();
+    thresholds.sort_by(f64::total_cmp);
+    if let (Some(&lowest), Some(&highest)) = (thresholds.first(), thresholds.last()) {
+        let threshold = thresholds[thresholds.len() / 2];
+        let height = |threshold: f64| chart.backend_coord(&(0.0, threshold)).1;
+        let band = [
+            (left + px(76), height(highest)),
+            (left + width, height(lowest)),
+        ];
+        page.draw(&Rectangle::new(band, HAIRLINE.filled()))?;
+        let y = height(threshold);
         dashed(page, (left + px(76), left + width), y)?;
         // Above the line, unless the line is so high that the label would leave the plot.
         let (label, up) = if threshold < 0.85 {
@@ -65,13 +74,13 @@ pub(super) fn draw(
             (y + px(9), VPos::Top)
         };
         page.draw(&Text::new(
-            format!("threshold {threshold:.2}"),
+            threshold_label(lowest, highest),
             (left + width - px(6), label),
             bold(16, INK, HPos::Right, up),
         ))?;
     }
     for pose in poses {
-        mark(page, pose.decision, at(pose))?;
+        mark(page, pose.verdict, at(pose))?;
     }
     let mut taken = Vec::new();
     for (letter_index, &index) in lettered.iter().enumerate() {
@@ -80,12 +89,22 @@ pub(super) fn draw(
         let line = vec![at(pose), spot];
         page.draw(&PathElement::new(
             line,
-            pose.decision.colour().stroke_width(px(2) as u32),
+            pose.verdict.colour().stroke_width(px(2) as u32),
         ))?;
-        letter(page, pose.decision, letter_index, spot)?;
+        letter(page, pose.verdict, letter_index, spot)?;
         taken.push(spot);
     }
     Ok(())
+}
+
+/// Each pose has a threshold of its own where its points fall on components of different σ.
+fn threshold_label(lowest: f64, highest: f64) -> String {
+    let (lowest, highest) = (format!("{lowest:.2}"), format!("{highest:.2}"));
+    if lowest == highest {
+        format!("threshold {lowest}")
+    } else {
+        format!("threshold {lowest} to {highest}")
+    }
 }
 
 /// Where a letter stands beside its point: below the plot's `ceiling`, and without covering a
@@ -115,11 +134,8 @@ fn free_spot((x, y): (i32, i32), ceiling: i32, taken: &[(i32, i32)]) -> (i32, i3
 /// The marks with their meaning and count, ending at the right.
 fn legend(page: &Page, (right, middle): (i32, i32), poses: &[ScoredPose]) -> Drawn {
     let mut x = right;
-    for decision in Decision::ALL.into_iter().rev() {
-        let count = poses
-            .iter()
-            .filter(|pose| pose.decision == decision)
-            .count();
+    for decision in Verdict::ALL.into_iter().rev() {
+        let count = poses.iter().filter(|pose| pose.verdict == decision).count();
         if count == 0 {
             continue;
         }

@@ -11,7 +11,7 @@ use plotters::style::FontStyle;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::canvas::Canvas;
-use super::picture::Decision;
+use super::picture::Verdict;
 
 /// The page is drawn this many times larger, and then reduced.
 pub(super) const SUPERSAMPLING: i32 = 2;
@@ -29,7 +29,7 @@ pub(super) const HAIRLINE: RGBColor = RGBColor(226, 229, 234);
 pub(super) type Page<'a> = DrawingArea<Canvas<'a>, Shift>;
 pub(super) type Drawn = Result<(), DrawingAreaErrorKind<Infallible>>;
 
-impl Decision {
+impl Verdict {
     pub(super) const ALL: [Self; 3] = [Self::Accept, Self::Undecided, Self::Reject];
 
     pub(super) fn colour(self) -> RGBColor {
@@ -85,19 +85,19 @@ pub(super) fn bold(size: i32, colour: RGBColor, across: HPos, up: VPos) -> TextS
 }
 
 /// The mark of a decision in a plot: a disc, a cross or a square.
-pub(super) fn mark(page: &Page, decision: Decision, (x, y): (i32, i32)) -> Drawn {
+pub(super) fn mark(page: &Page, decision: Verdict, (x, y): (i32, i32)) -> Drawn {
     let colour = decision.colour();
     match decision {
-        Decision::Accept => {
+        Verdict::Accept => {
             page.draw(&Circle::new((x, y), px(6), PAPER.filled()))?;
             page.draw(&Circle::new((x, y), px(5), colour.mix(0.85).filled()))
         }
-        Decision::Undecided => {
+        Verdict::Undecided => {
             let square = |half: i32| [(x - half, y - half), (x + half, y + half)];
             page.draw(&Rectangle::new(square(px(5)), PAPER.filled()))?;
             page.draw(&Rectangle::new(square(px(4)), colour.mix(0.85).filled()))
         }
-        Decision::Reject => {
+        Verdict::Reject => {
             cross(page, (x, y), px(5), PAPER.stroke_width(px(4) as u32))?;
             cross(
                 page,
@@ -110,12 +110,12 @@ pub(super) fn mark(page: &Page, decision: Decision, (x, y): (i32, i32)) -> Drawn
 }
 
 /// A seal: the decision's sign in white on a disc of its colour.
-pub(super) fn seal(page: &Page, decision: Decision, (x, y): (i32, i32)) -> Drawn {
+pub(super) fn seal(page: &Page, decision: Verdict, (x, y): (i32, i32)) -> Drawn {
     let white = PAPER.stroke_width(px(3) as u32);
     page.draw(&Circle::new((x, y), px(15), PAPER.filled()))?;
     page.draw(&Circle::new((x, y), px(13), decision.colour().filled()))?;
     match decision {
-        Decision::Accept => page.draw(&PathElement::new(
+        Verdict::Accept => page.draw(&PathElement::new(
             vec![
                 (x - px(6), y),
                 (x - px(2), y + px(5)),
@@ -123,16 +123,16 @@ pub(super) fn seal(page: &Page, decision: Decision, (x, y): (i32, i32)) -> Drawn
             ],
             white,
         )),
-        Decision::Undecided => page.draw(&PathElement::new(
+        Verdict::Undecided => page.draw(&PathElement::new(
             vec![(x - px(6), y), (x + px(6), y)],
             white,
         )),
-        Decision::Reject => cross(page, (x, y), px(5), white),
+        Verdict::Reject => cross(page, (x, y), px(5), white),
     }
 }
 
 /// A panel's letter in white on a disc of its decision's colour.
-pub(super) fn letter(page: &Page, decision: Decision, index: usize, at: (i32, i32)) -> Drawn {
+pub(super) fn letter(page: &Page, decision: Verdict, index: usize, at: (i32, i32)) -> Drawn {
     page.draw(&Circle::new(at, px(14), PAPER.filled()))?;
     page.draw(&Circle::new(at, px(12), decision.colour().filled()))?;
     let name = char::from(b'A' + index as u8).to_string();

@@ -13,15 +13,9 @@ pub struct Estimate {
     pub image: String,
     /// The pose.
     pub pose: Pose,
-}
-
-/// What to do with a matrix that is not quite a rotation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RotationRepair {
-    /// Refuse it.
-    Refuse,
-    /// Take the nearest rotation.
-    Orthonormalise,
+    /// How far the file's matrix was from a rotation, where it had to be replaced by the nearest:
+    /// the largest entry of RᵀR − I in magnitude.
+    pub repaired: Option<f32>,
 }
 
 /// Why a file holds no poses.
@@ -56,7 +50,7 @@ pub enum ReadEstimatesError {
         found: String,
     },
     /// The numbers are no pose.
-    #[error("{}: pose {id}: {source}{}", path.display(), advice(source))]
+    #[error("{}: pose {id}: {source}", path.display())]
     Pose {
         /// The file.
         path: PathBuf,
@@ -67,29 +61,13 @@ pub enum ReadEstimatesError {
     },
 }
 
-fn advice(error: &PoseError) -> &'static str {
-    match error {
-        PoseError::NotARotation {
-            deviation,
-            tolerance,
-        } if *tolerance < cobra_infer::tolerance::ORTHONORMALISABLE
-            && *deviation <= cobra_infer::tolerance::ORTHONORMALISABLE =>
-        {
-            " (--orthonormalise takes the nearest rotation)"
-        }
-        _ => "",
-    }
-}
-
 /// Reads `{"IMAGE": [{"cam_R_m2c": [9 numbers], "cam_t_m2c": [3 numbers]}, …], …}`, R row-major,
-/// object to camera; other keys are ignored. Poses come in the file's order.
+/// object to camera; other keys are ignored. Poses come in the file's order. A matrix that is not
+/// quite a rotation is replaced by the nearest one, and the estimate says so.
 ///
 /// # Errors
 /// [`ReadEstimatesError`] names the file and the place in it.
-pub fn read_estimates(
-    path: &Path,
-    repair: RotationRepair,
-) -> Result<Vec<Estimate>, ReadEstimatesError> {
+pub fn read_estimates(path: &Path) -> Result<Vec<Estimate>, ReadEstimatesError> {
     let text = std::fs::read_to_string(path).map_err(|source| ReadEstimatesError::Io {
         path: path.to_owned(),
         source,
@@ -120,19 +98,17 @@ pub fn read_estimates(
                 1 => image.clone(),
                 _ => format!("{image}#{index}"),
             };
-            let build = match repair {
-                RotationRepair::Refuse => Pose::from_row_major,
-                RotationRepair::Orthonormalise => Pose::from_row_major_orthonormalised,
-            };
-            let pose = build(rotation, translation).map_err(|source| ReadEstimatesError::Pose {
-                path: path.to_owned(),
-                id: id.clone(),
-                source,
-            })?;
+            let (pose, repaired) =
+                to_pose(rotation, translation).map_err(|source| ReadEstimatesError::Pose {
+                    path: path.to_owned(),
+                    id: id.clone(),
+                    source,
+                })?;
             estimates.push(Estimate {
                 id,
                 image: image.clone(),
                 pose,
+                repaired,
             });
         }
     }
@@ -140,6 +116,16 @@ pub fn read_estimates(
         return Err(form(path, "the document", "at least one pose", &document));
     }
     Ok(estimates)
+}
+
+fn to_pose(r: [f32; 9], t: [f32; 3]) -> Result<(Pose, Option<f32>), PoseError> {
+    match Pose::from_row_major(r, t) {
+        Ok(pose) => Ok((pose, None)),
+        Err(PoseError::NotARotation { deviation, .. }) => {
+            Ok((Pose::from_row_major_orthonormalised(r, t)?, Some(deviation)))
+        }
+        Err(error) => Err(error),
+    }
 }
 
 fn numbers<const N: usize>(
@@ -191,13 +177,22 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("poses.json");
         std::fs::write(&path, text).unwrap();
-        read_estimates(&path, RotationRepair::Refuse).map_err(|error| error.to_string())
+        read_estimates(&path).map_err(|error| error.to_string())
     }
 
     #[test]
     fn poses_come_in_the_files_order_with_ids_of_their_own() {
         let ids: Vec<String> = read(GOOD).unwrap().into_iter().map(|e| e.id).collect();
         assert_eq!(ids, ["7", "3#0", "3#1"]);
+    }
+
+    #[test]
+    fn a_matrix_that_is_nearly_a_rotation_is_replaced_and_reported() {
+        let text = GOOD.replacen("[1,0,0,0,1,0,0,0,1]", "[1,0,0,0,1,0,0,0,0.9997]", 1);
+        let estimates = read(&text).unwrap();
+        assert!((estimates[0].repaired.unwrap() - 6e-4).abs() < 1e-6);
+        assert!((estimates[0].pose.rotation().matrix().m33 - 1.0).abs() < 1e-6);
+        assert_eq!(estimates[1].repaired, None);
     }
 
     #[test]
@@ -225,8 +220,8 @@ mod tests {
             ),
             (
                 "[1,0,0,0,1,0,0,0,1]",
-                "[1,0,0,0,1,0,0,0,0.9997]",
-                "--orthonormalise",
+                "[1,0,0,0,1,0,0,0,1.2]",
+                "R is no rotation",
             ),
             (
                 "[1,0,0,0,1,0,0,0,1]",

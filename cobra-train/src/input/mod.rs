@@ -12,5 +12,5 @@ pub use camera::{ReadCameraError, read_camera};
 pub use correspondences::{
     CorrespondenceOptions, ReadCorrespondencesError, Weighting, read_correspondences,
 };
-pub use estimates::{Estimate, ReadEstimatesError, RotationRepair, read_estimates};
+pub use estimates::{Estimate, ReadEstimatesError, read_estimates};
 pub use scale::{ScaleDoubt, doubt_point_scale, doubt_pose_scale};

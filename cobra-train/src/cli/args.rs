@@ -1,0 +1,338 @@
+//! The arguments of `cobra`, with the help that goes with them.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+use cobra_infer::{Assignment, Exponent, Likelihood, Unit};
+use cobra_train::input::Weighting;
+use std::path::PathBuf;
+
+/// Trains shape templates and scores 6D object poses against them.
+#[derive(Debug, Parser)]
+#[command(
+    name = "cobra",
+    version,
+    max_term_width = 100,
+    after_help = "Exit codes: 0 success (also when poses are rejected), 1 a pose was not accepted \
+                  and --fail-on-reject was given, 2 wrong usage, 3 bad input, 4 reading or \
+                  writing failed.\n\nFirst steps:\n  cobra demo\n  cobra train part.ply -o \
+                  part.cobra --unit mm\n  cobra score part.cobra --camera K.txt --poses \
+                  poses.json --correspondences DIR"
+)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+
+    /// Print results, warnings and errors only
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub(crate) quiet: bool,
+
+    /// Print details of what is done
+    #[arg(short, long, global = true)]
+    pub(crate) verbose: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Show the whole path on a part made by code: train, simulate, score, picture
+    Demo(DemoArguments),
+    /// Train a template from a mesh
+    Train(TrainArguments),
+    /// Score estimated poses: accept, reject or undecided
+    Score(ScoreArguments),
+    /// Measure how well a template reproduces a mesh
+    Eval(EvalArguments),
+    /// Show what is in a template, its size and its cost
+    Inspect(InspectArguments),
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Writes bracket.cobra, poses.csv and poses.png into the folder.\n\n\
+                        Example:\n  cobra demo -o demo-output"
+)]
+pub(crate) struct DemoArguments {
+    /// Folder for the template, the table and the picture; made if missing
+    #[arg(short, long, value_name = "DIR", default_value = "demo-output")]
+    pub(crate) output: PathBuf,
+
+    /// How many pose estimates to simulate
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(10..=10_000))]
+    pub(crate) poses: u32,
+
+    /// Seed of all randomness
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The mesh is sampled as a camera sees it from outside; it need not be closed.\n\n\
+                  Examples:\n  cobra train part.ply -o part.cobra\n  cobra train part.stl -o \
+                  part.cobra --unit m --components 24 --json -\n  cobra train part.obj -o \
+                  part.cobra --reference-points centres.txt"
+)]
+pub(crate) struct TrainArguments {
+    /// Mesh file: .ply, .obj or .stl
+    pub(crate) mesh: PathBuf,
+
+    /// Template file to write
+    #[arg(short, long, value_name = "FILE.cobra")]
+    pub(crate) output: PathBuf,
+
+    /// Training points
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) points: u32,
+
+    /// Test points, which sigma-hat is measured on
+    #[arg(long, value_name = "N", default_value_t = 30_000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) test_points: u32,
+
+    /// `kmeans`, or a text file with x y z a line in the mesh's frame and unit
+    #[arg(long, value_name = "kmeans|FILE", default_value = "kmeans")]
+    pub(crate) reference_points: String,
+
+    /// Components (reference points); with a file, the number of its lines [default: 16]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) components: Option<u32>,
+
+    /// Exponent of the rational quadratic kernel: 1 and 0.5 need no power function on the controller
+    #[arg(long, value_name = "ALPHA", value_enum, default_value_t = ExponentArgument::One)]
+    pub(crate) exponent: ExponentArgument,
+
+    /// Unit that the mesh's numbers are in; files carry none
+    #[arg(long, value_enum, default_value_t = UnitArgument::Mm)]
+    pub(crate) unit: UnitArgument,
+
+    /// Object's name in the template, at most 32 bytes [default: the mesh file's name]
+    #[arg(long)]
+    pub(crate) name: Option<String>,
+
+    /// Seed of all randomness
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+
+    /// Write what training found as JSON, `-` for standard output
+    #[arg(long, value_name = "FILE|-")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Poses: {\"ID\": [{\"cam_R_m2c\": [9], \"cam_t_m2c\": [3]}], ...}, R row-major, \
+                  object to camera.\nCorrespondences: CSV with columns x,y (pixels, pixel centres \
+                  at integers), X,Y,Z (object frame), and inlier and conf where asked for; a \
+                  folder holds ID_corr.txt or ID.csv for each pose.\nCamera: a 3x3 matrix as text; \
+                  lens distortion must be removed first.\nPoses and points are in the template's \
+                  unit; --sigma-hat, --noise and --delta are in millimetres.\n\nExamples:\n  cobra \
+                  score part.cobra --camera K.txt --poses est_poses.json --correspondences \
+                  correspondences\n  cobra score part.cobra --camera K.txt --poses est_poses.json \
+                  --correspondences 61_corr.txt --noise 1.5 --delta 3 --json -"
+)]
+pub(crate) struct ScoreArguments {
+    /// Template file
+    #[arg(value_name = "FILE.cobra")]
+    pub(crate) template: PathBuf,
+
+    /// Camera matrix K: three rows of three numbers, pixels
+    #[arg(long, value_name = "K.txt")]
+    pub(crate) camera: PathBuf,
+
+    /// Estimated poses
+    #[arg(long, value_name = "POSES.json")]
+    pub(crate) poses: PathBuf,
+
+    /// A folder, or files named after their pose
+    #[arg(long, value_name = "DIR|FILE", num_args = 1.., required = true)]
+    pub(crate) correspondences: Vec<PathBuf>,
+
+    /// Standard deviation of the residuals in mm, in place of the template's and of --noise
+    #[arg(long, value_name = "MM", value_parser = positive, conflicts_with = "noise")]
+    pub(crate) sigma_hat: Option<f32>,
+
+    /// Standard deviation of the measurement in mm, added to the template's in quadrature
+    #[arg(long, value_name = "MM", value_parser = not_negative, default_value_t = 0.0)]
+    pub(crate) noise: f32,
+
+    /// Tolerance in mm that the threshold stands for [default: 1 % of the object's diameter]
+    #[arg(long, value_name = "MM", value_parser = positive)]
+    pub(crate) delta: Option<f32>,
+
+    /// What a correspondence weighs: all the same, or the column conf
+    #[arg(long, value_enum, default_value_t = WeightsArgument::Uniform)]
+    pub(crate) weights: WeightsArgument,
+
+    /// Use only rows whose column inlier is not 0
+    #[arg(long)]
+    pub(crate) inliers_only: bool,
+
+    /// peak: exp(-e²/2σ²), between 0 and 1; density: the Gaussian density, in 1/length
+    #[arg(long, value_enum, default_value_t = LikelihoodArgument::Peak)]
+    pub(crate) likelihood: LikelihoodArgument,
+
+    /// Which component speaks for a point: the nearest, or the one that finds it most probable
+    #[arg(long, value_enum, default_value_t = AssignmentArgument::Nearest)]
+    pub(crate) assignment: AssignmentArgument,
+
+    /// Undecided with fewer correspondences than this
+    #[arg(long, value_name = "N", default_value_t = cobra_infer::Settings::MINIMUM_POINTS)]
+    pub(crate) min_points: u32,
+
+    /// Exit with code 1 when a pose is not accepted
+    #[arg(long)]
+    pub(crate) fail_on_reject: bool,
+
+    /// Write the scores as JSON, `-` for standard output
+    #[arg(long, value_name = "FILE|-")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Chamfer distance (times 1000), precision, recall and F-score (percent, tau = \
+                  0.01) are the paper's, in the unit sphere. The component is the one that the \
+                  scorer would use on the test point.\n\nExample:\n  cobra eval part.cobra --mesh \
+                  part.ply --points-out predicted.ply"
+)]
+pub(crate) struct EvalArguments {
+    /// Template file
+    #[arg(value_name = "FILE.cobra")]
+    pub(crate) template: PathBuf,
+
+    /// The mesh it was trained from: .ply, .obj or .stl
+    #[arg(long, value_name = "MESH")]
+    pub(crate) mesh: PathBuf,
+
+    /// Test points, drawn independently of the training's
+    #[arg(long, value_name = "N", default_value_t = 30_000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) points: u32,
+
+    /// Which component speaks for a point; the other rule's figures are given beside
+    #[arg(long, value_enum, default_value_t = AssignmentArgument::Nearest)]
+    pub(crate) assignment: AssignmentArgument,
+
+    /// Seed of the test points
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+
+    /// Write the predicted points with their residuals and components as a PLY file
+    #[arg(long, value_name = "FILE.ply")]
+    pub(crate) points_out: Option<PathBuf>,
+
+    /// Write the figures as JSON, `-` for standard output
+    #[arg(long, value_name = "FILE|-")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  cobra inspect part.cobra")]
+pub(crate) struct InspectArguments {
+    /// Template file
+    #[arg(value_name = "FILE.cobra")]
+    pub(crate) template: PathBuf,
+
+    /// Write the content as JSON, `-` for standard output
+    #[arg(long, value_name = "FILE|-")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum UnitArgument {
+    Mm,
+    Cm,
+    M,
+    Inch,
+}
+
+impl From<UnitArgument> for Unit {
+    fn from(unit: UnitArgument) -> Self {
+        match unit {
+            UnitArgument::Mm => Unit::Millimetre,
+            UnitArgument::Cm => Unit::Centimetre,
+            UnitArgument::M => Unit::Metre,
+            UnitArgument::Inch => Unit::Inch,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum ExponentArgument {
+    #[value(name = "1")]
+    One,
+    #[value(name = "0.5")]
+    Half,
+    Free,
+}
+
+impl From<ExponentArgument> for Exponent {
+    fn from(exponent: ExponentArgument) -> Self {
+        match exponent {
+            ExponentArgument::One => Exponent::One,
+            ExponentArgument::Half => Exponent::Half,
+            ExponentArgument::Free => Exponent::Free,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum WeightsArgument {
+    Uniform,
+    Conf,
+}
+
+impl From<WeightsArgument> for Weighting {
+    fn from(weights: WeightsArgument) -> Self {
+        match weights {
+            WeightsArgument::Uniform => Weighting::Uniform,
+            WeightsArgument::Conf => Weighting::Confidence,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum LikelihoodArgument {
+    Peak,
+    Density,
+}
+
+impl From<LikelihoodArgument> for Likelihood {
+    fn from(likelihood: LikelihoodArgument) -> Self {
+        match likelihood {
+            LikelihoodArgument::Peak => Likelihood::Peak,
+            LikelihoodArgument::Density => Likelihood::Density,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum AssignmentArgument {
+    Nearest,
+    Max,
+}
+
+impl From<AssignmentArgument> for Assignment {
+    fn from(assignment: AssignmentArgument) -> Self {
+        match assignment {
+            AssignmentArgument::Nearest => Assignment::Nearest,
+            AssignmentArgument::Max => Assignment::Maximum,
+        }
+    }
+}
+
+fn positive(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        _ => Err("expected a number greater than 0, in millimetres".to_owned()),
+    }
+}
+
+fn not_negative(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err("expected a number of at least 0, in millimetres".to_owned()),
+    }
+}

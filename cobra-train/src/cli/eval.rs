@@ -1,0 +1,172 @@
+//! `cobra eval`: how well a template reproduces a mesh.
+
+use super::args::EvalArguments;
+use super::failure::Failure;
+use super::report::{JsonTarget, table};
+use super::template_file;
+use super::terminal::Terminal;
+use cobra_infer::{Assignment, Template};
+use cobra_train::evaluate::{Evaluation, ResidualSummary, ShapeMetrics, evaluate, write_points};
+use cobra_train::output::check_writable;
+use cobra_train::progress::Progress;
+use cobra_train::random::Purpose;
+use cobra_train::surface::{Mesh, RayCaster, read_mesh, sample_visible};
+use nalgebra::Point3;
+use serde::Serialize;
+
+/// A mesh whose bounding sphere's radius differs by more than this share is not the template's.
+const SAME_OBJECT: f64 = 0.01;
+
+pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), Failure> {
+    let bytes = template_file::read(&arguments.template)?;
+    let template = Template::from_bytes(&bytes)
+        .map_err(|error| Failure::template(&arguments.template, &error))?;
+    if let Some(path) = &arguments.points_out {
+        check_writable(path)?;
+    }
+    let mesh = read_mesh(&arguments.mesh)?;
+    warn_of_another_object(&template, &mesh, terminal);
+    let points = test_points(&mesh, arguments)?;
+    let chosen: Assignment = arguments.assignment.into();
+    let other = match chosen {
+        Assignment::Nearest => Assignment::Maximum,
+        Assignment::Maximum => Assignment::Nearest,
+    };
+    let evaluation = evaluate(&template, chosen, &points)?;
+    let beside = evaluate(&template, other, &points)?;
+    if let Some(path) = &arguments.points_out {
+        write_points(path, &evaluation.predicted)?;
+    }
+    let json = JsonTarget(arguments.json.as_ref());
+    json.write(
+        &Document {
+            schema: 1,
+            name: template.name(),
+            points: points.len(),
+            tau: cobra_train::evaluate::TAU,
+            figures: Figures::new(chosen, &evaluation, &template),
+            other_rule: Figures::new(other, &beside, &template),
+        },
+        terminal,
+    )?;
+    if json.replaces_the_table() {
+        return Ok(());
+    }
+    terminal.print(&text(
+        &template,
+        &[(chosen, &evaluation), (other, &beside)],
+        points.len(),
+    ))
+}
+
+fn test_points(mesh: &Mesh, arguments: &EvalArguments) -> Result<Vec<Point3<f64>>, Failure> {
+    let sphere = mesh.bounding_sphere();
+    let unit = mesh.normalised(&sphere);
+    let sampled = sample_visible(
+        &unit,
+        &RayCaster::new(&unit),
+        arguments.points as usize,
+        arguments.seed,
+        Purpose::Evaluation,
+    )
+    .map_err(|error| Failure::BadInput(format!("{}: {error}", arguments.mesh.display())))?;
+    Ok(sampled
+        .iter()
+        .map(|point| sphere.denormalise(&point.position))
+        .collect())
+}
+
+fn warn_of_another_object(template: &Template<'_>, mesh: &Mesh, terminal: &Terminal) {
+    let radius = mesh.bounding_sphere().radius;
+    let expected = f64::from(template.radius());
+    if (radius / expected - 1.0).abs() > SAME_OBJECT {
+        terminal.warn(&format!(
+            "the mesh's radius is {radius:.4}, the template's {expected:.4} {}: another object, or \
+             another unit",
+            template.unit().symbol()
+        ));
+    }
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    name: &'a str,
+    points: usize,
+    tau: f64,
+    #[serde(flatten)]
+    figures: Figures,
+    other_rule: Figures,
+}
+
+/// Chamfer, shares and `residual` in the unit sphere; `residual_mm` in millimetres.
+#[derive(Serialize)]
+struct Figures {
+    assignment: &'static str,
+    #[serde(flatten)]
+    shape: ShapeMetrics,
+    residual: ResidualSummary,
+    residual_mm: ResidualSummary,
+    unmatched: usize,
+}
+
+impl Figures {
+    fn new(assignment: Assignment, evaluation: &Evaluation, template: &Template<'_>) -> Self {
+        let unit_sphere = 1.0 / f64::from(template.radius());
+        let millimetres = f64::from(template.unit().millimetres());
+        Self {
+            assignment: name(assignment),
+            shape: evaluation.shape,
+            residual: evaluation.residual.scaled(unit_sphere),
+            residual_mm: evaluation.residual.scaled(millimetres),
+            unmatched: evaluation.unmatched,
+        }
+    }
+}
+
+fn name(assignment: Assignment) -> &'static str {
+    match assignment {
+        Assignment::Nearest => "nearest",
+        Assignment::Maximum => "max",
+    }
+}
+
+fn text(
+    template: &Template<'_>,
+    evaluations: &[(Assignment, &Evaluation)],
+    points: usize,
+) -> String {
+    let millimetres = f64::from(template.unit().millimetres());
+    let rows: Vec<Vec<String>> = evaluations
+        .iter()
+        .map(|(assignment, evaluation)| {
+            let shape = &evaluation.shape;
+            let residual = evaluation.residual.scaled(millimetres);
+            vec![
+                name(*assignment).to_owned(),
+                format!("{:.4}", shape.chamfer),
+                format!("{:.2}", shape.precision),
+                format!("{:.2}", shape.recall),
+                format!("{:.2}", shape.f_score),
+                format!("{:.3}", residual.rms),
+                format!("{:.3}", residual.median),
+                format!("{:.3}", residual.p95),
+            ]
+        })
+        .collect();
+    let header = [
+        "component",
+        "chamfer x1000",
+        "P %",
+        "R %",
+        "F %",
+        "rms mm",
+        "median mm",
+        "p95 mm",
+    ];
+    format!(
+        "{}: {points} test points, tau 0.01 of the unit sphere\n\n{}",
+        template.name(),
+        table(&header, &["component"], &rows)
+    )
+}

@@ -1,0 +1,113 @@
+//! What ends the command early, and the exit code that says so.
+
+use cobra_infer::{ScoreError, TemplateError};
+use cobra_train::input::{ReadCameraError, ReadCorrespondencesError, ReadEstimatesError};
+use cobra_train::output::WriteError;
+use cobra_train::reference::ReadReferencePointsError;
+use cobra_train::surface::ReadMeshError;
+use cobra_train::train::TrainError;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Why the command ends without success.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// A pose was not accepted and `--fail-on-reject` was given; the table has said which.
+    NotAccepted {
+        /// How many.
+        count: usize,
+    },
+    /// The arguments do not fit together.
+    Usage(String),
+    /// A file does not hold what it should.
+    BadInput(String),
+    /// Reading or writing failed.
+    Io(String),
+    /// Whoever read the output has gone: nothing to complain of.
+    OutputClosed,
+}
+
+impl Failure {
+    pub(crate) fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Failure::OutputClosed => 0,
+            Failure::NotAccepted { .. } => 1,
+            Failure::Usage(_) => 2,
+            Failure::BadInput(_) => 3,
+            Failure::Io(_) => 4,
+        })
+    }
+
+    pub(crate) fn message(&self) -> Option<String> {
+        match self {
+            Failure::OutputClosed => None,
+            Failure::NotAccepted { count: 1 } => Some("1 pose was not accepted".to_owned()),
+            Failure::NotAccepted { count } => Some(format!("{count} poses were not accepted")),
+            Failure::Usage(text) | Failure::BadInput(text) | Failure::Io(text) => {
+                Some(text.clone())
+            }
+        }
+    }
+
+    /// A template file that is none.
+    pub(crate) fn template(path: &Path, error: &TemplateError) -> Self {
+        Failure::BadInput(format!("{}: {error}", path.display()))
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        Failure::Io(error.to_string())
+    }
+}
+
+impl From<ReadMeshError> for Failure {
+    fn from(error: ReadMeshError) -> Self {
+        classify(error.is_io(), &error)
+    }
+}
+
+impl From<ReadReferencePointsError> for Failure {
+    fn from(error: ReadReferencePointsError) -> Self {
+        classify(matches!(error, ReadReferencePointsError::Io { .. }), &error)
+    }
+}
+
+impl From<ReadCameraError> for Failure {
+    fn from(error: ReadCameraError) -> Self {
+        classify(matches!(error, ReadCameraError::Io { .. }), &error)
+    }
+}
+
+impl From<ReadEstimatesError> for Failure {
+    fn from(error: ReadEstimatesError) -> Self {
+        classify(matches!(error, ReadEstimatesError::Io { .. }), &error)
+    }
+}
+
+impl From<ReadCorrespondencesError> for Failure {
+    fn from(error: ReadCorrespondencesError) -> Self {
+        classify(matches!(error, ReadCorrespondencesError::Io { .. }), &error)
+    }
+}
+
+impl From<TrainError> for Failure {
+    fn from(error: TrainError) -> Self {
+        Failure::BadInput(error.to_string())
+    }
+}
+
+impl From<ScoreError> for Failure {
+    fn from(error: ScoreError) -> Self {
+        Failure::BadInput(error.to_string())
+    }
+}
+
+fn classify(io: bool, error: &dyn std::error::Error) -> Failure {
+    let text = error.to_string();
+    if io {
+        Failure::Io(text)
+    } else {
+        Failure::BadInput(text)
+    }
+}

@@ -1,0 +1,171 @@
+//! `cobra inspect`: what is in a template.
+
+use super::args::InspectArguments;
+use super::failure::Failure;
+use super::report::{JsonTarget, table};
+use super::template_file;
+use super::terminal::Terminal;
+use cobra_infer::Template;
+use cobra_infer::template::{RECORD_LENGTH, VERSION};
+use serde::Serialize;
+
+pub(super) fn run(arguments: &InspectArguments, terminal: &Terminal) -> Result<(), Failure> {
+    let bytes = template_file::read(&arguments.template)?;
+    let template = Template::from_bytes(&bytes)
+        .map_err(|error| Failure::template(&arguments.template, &error))?;
+    let document = Document::new(&template, bytes.len());
+    let json = JsonTarget(arguments.json.as_ref());
+    json.write(&document, terminal)?;
+    if json.replaces_the_table() {
+        return Ok(());
+    }
+    terminal.print(&text(&document))
+}
+
+#[derive(Serialize)]
+struct Document {
+    schema: u32,
+    name: String,
+    format_version: u16,
+    unit: &'static str,
+    centre: [f32; 3],
+    radius: f32,
+    diameter: f32,
+    metric: String,
+    kernel: String,
+    terms: usize,
+    bytes: Bytes,
+    kernel_evaluations_per_point: Evaluations,
+    components: Vec<ComponentDocument>,
+}
+
+#[derive(Serialize)]
+struct Bytes {
+    total: usize,
+    terms: usize,
+    components: usize,
+    other: usize,
+}
+
+#[derive(Serialize)]
+struct Evaluations {
+    nearest_most: usize,
+    maximum: usize,
+}
+
+#[derive(Serialize)]
+struct ComponentDocument {
+    centre: [f32; 3],
+    sigma_hat: f32,
+    length_scale: f32,
+    exponent: f32,
+    prior_mean: f32,
+    terms: usize,
+}
+
+impl Document {
+    fn new(template: &Template<'_>, total: usize) -> Self {
+        let terms = template.term_count() * 16;
+        let records = template.component_count() * RECORD_LENGTH;
+        let cost = template.cost();
+        Self {
+            schema: 1,
+            name: template.name().to_owned(),
+            format_version: VERSION,
+            unit: template.unit().symbol(),
+            centre: template.centre(),
+            radius: template.radius(),
+            diameter: template.diameter(),
+            metric: format!("{:?}", template.metric()).to_lowercase(),
+            kernel: kernel(template),
+            terms: template.term_count(),
+            bytes: Bytes {
+                total,
+                terms,
+                components: records,
+                other: total - terms - records,
+            },
+            kernel_evaluations_per_point: Evaluations {
+                nearest_most: cost.nearest,
+                maximum: cost.maximum,
+            },
+            components: template
+                .components()
+                .map(|component| ComponentDocument {
+                    centre: component.centre,
+                    sigma_hat: component.sigma_hat,
+                    length_scale: component.hyperparameters.length_scale,
+                    exponent: component.hyperparameters.exponent,
+                    prior_mean: component.hyperparameters.prior_mean,
+                    terms: component.terms.len(),
+                })
+                .collect(),
+        }
+    }
+}
+
+fn kernel(template: &Template<'_>) -> String {
+    let cobra_infer::Kernel::RationalQuadratic(exponent) = template.kernel();
+    let exponent = exponent
+        .fixed()
+        .map_or_else(|| "free".to_owned(), |fixed| fixed.to_string());
+    format!("rational quadratic, exponent {exponent}")
+}
+
+fn text(document: &Document) -> String {
+    let unit = document.unit;
+    let bytes = &document.bytes;
+    let evaluations = &document.kernel_evaluations_per_point;
+    let [x, y, z] = document.centre;
+    let rows: Vec<Vec<String>> = document
+        .components
+        .iter()
+        .enumerate()
+        .map(|(index, component)| {
+            let [x, y, z] = component.centre;
+            vec![
+                index.to_string(),
+                format!("{x:.3}"),
+                format!("{y:.3}"),
+                format!("{z:.3}"),
+                format!("{:.4}", component.sigma_hat),
+                component.terms.to_string(),
+                format!("{:.4}", component.length_scale),
+            ]
+        })
+        .collect();
+    let header = [
+        "component",
+        &format!("x ({unit})"),
+        "y",
+        "z",
+        &format!("sigma-hat ({unit})"),
+        "terms",
+        "length scale",
+    ];
+    format!(
+        "object      {}\n\
+         unit        {unit}\n\
+         sphere      radius {:.3} around ({x:.3}, {y:.3}, {z:.3})\n\
+         diameter    {:.3}\n\
+         kernel      {}, {} metric\n\
+         components  {}\n\
+         terms       {}\n\
+         size        {} bytes: {} terms, {} component records, {} the rest\n\
+         cost        kernel evaluations a point: at most {} (nearest), {} (max)\n\n{}",
+        document.name,
+        document.radius,
+        document.diameter,
+        document.kernel,
+        document.metric,
+        document.components.len(),
+        document.terms,
+        bytes.total,
+        bytes.terms,
+        bytes.components,
+        bytes.other,
+        evaluations.nearest_most,
+        evaluations.maximum,
+        table(&header, &[], &rows)
+    )
+}

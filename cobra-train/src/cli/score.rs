@@ -1,0 +1,286 @@
+//! `cobra score`: estimated poses against a template.
+
+use super::args::ScoreArguments;
+use super::failure::Failure;
+use super::report::{JsonTarget, plural, table};
+use super::template_file;
+use super::terminal::Terminal;
+use cobra_infer::{
+    Assignment, Camera, Correspondence, Decision, Likelihood, Report, Settings, Sigma, Template,
+    score,
+};
+use cobra_train::input::{
+    CorrespondenceOptions, Estimate, doubt_point_scale, doubt_pose_scale, read_camera,
+    read_correspondences, read_estimates,
+};
+use cobra_train::progress::Progress;
+use cobra_train::train::LARGEST_TEMPLATE;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(), Failure> {
+    let bytes = template_file::read(&arguments.template)?;
+    let template = Template::from_bytes(&bytes)
+        .map_err(|error| Failure::template(&arguments.template, &error))?;
+    let camera = read_camera(&arguments.camera)?;
+    let estimates = read_estimates(&arguments.poses)?;
+    let settings = settings(arguments, &template);
+    let jobs = pair(&estimates, &arguments.correspondences, terminal)?;
+
+    let mut scored = Vec::with_capacity(jobs.len());
+    for (estimate, file) in &jobs {
+        let correspondences = read_correspondences(
+            file,
+            CorrespondenceOptions {
+                weighting: arguments.weights.into(),
+                inliers_only: arguments.inliers_only,
+            },
+        )?;
+        if let Some(deviation) = estimate.repaired {
+            terminal.warn(&format!(
+                "pose {}: R is no rotation (R^T R differs from the identity by {deviation:.2e}); \
+                 scored with the nearest rotation",
+                estimate.id
+            ));
+        }
+        warn_of_scale(&template, estimate, &correspondences, file, terminal);
+        let report = judge(&template, &camera, estimate, &settings, &correspondences)?;
+        scored.push((estimate.id.as_str(), report));
+    }
+
+    let json = JsonTarget(arguments.json.as_ref());
+    json.write(&document(&template, &settings, &scored), terminal)?;
+    if !json.replaces_the_table() {
+        terminal.print(&text(&template, &settings, &scored))?;
+    }
+    let count = scored
+        .iter()
+        .filter(|(_, report)| report.decision != Decision::Accept)
+        .count();
+    if arguments.fail_on_reject && count > 0 {
+        return Err(Failure::NotAccepted { count });
+    }
+    Ok(())
+}
+
+fn judge(
+    template: &Template<'_>,
+    camera: &Camera,
+    estimate: &Estimate,
+    settings: &Settings,
+    correspondences: &[Correspondence],
+) -> Result<Report, Failure> {
+    Ok(score::<LARGEST_TEMPLATE>(
+        template,
+        camera,
+        &estimate.pose,
+        settings,
+        correspondences,
+    )?)
+}
+
+/// The settings in the template's unit; the arguments are in millimetres.
+fn settings(arguments: &ScoreArguments, template: &Template<'_>) -> Settings {
+    let millimetre = 1.0 / template.unit().millimetres();
+    let delta = arguments
+        .delta
+        .map_or(0.01 * template.diameter(), |delta| delta * millimetre);
+    Settings {
+        likelihood: arguments.likelihood.into(),
+        assignment: arguments.assignment.into(),
+        sigma: match arguments.sigma_hat {
+            Some(sigma) => Sigma::Fixed(sigma * millimetre),
+            None => Sigma::Template {
+                noise: arguments.noise * millimetre,
+            },
+        },
+        minimum_points: arguments.min_points,
+        ..Settings::with_delta(delta)
+    }
+}
+
+/// Finds each pose's correspondences: in a folder every pose has a file; files that are named one
+/// by one choose the poses to score.
+fn pair<'e>(
+    estimates: &'e [Estimate],
+    inputs: &[PathBuf],
+    terminal: &Terminal,
+) -> Result<Vec<(&'e Estimate, PathBuf)>, Failure> {
+    if let [folder] = inputs
+        && folder.is_dir()
+    {
+        return estimates
+            .iter()
+            .map(|estimate| Ok((estimate, in_folder(folder, &estimate.image)?)))
+            .collect();
+    }
+    let mut jobs = Vec::new();
+    for file in inputs {
+        if file.is_dir() {
+            return Err(Failure::Usage(format!(
+                "{}: a folder stands alone, files may be several",
+                file.display()
+            )));
+        }
+        let image = image_of(file);
+        let mut poses: Vec<&Estimate> = estimates
+            .iter()
+            .filter(|estimate| same_image(&estimate.image, &image))
+            .collect();
+        if let ([file_is_single], [only], true) = (inputs, estimates, poses.is_empty()) {
+            terminal.detail(&format!(
+                "{} is taken for pose {}, the only one",
+                file_is_single.display(),
+                only.id
+            ));
+            poses.push(only);
+        }
+        if poses.is_empty() {
+            return Err(Failure::BadInput(format!(
+                "{}: no pose has the id {image:?} that the file's name says",
+                file.display()
+            )));
+        }
+        jobs.extend(poses.into_iter().map(|estimate| (estimate, file.clone())));
+    }
+    let unused = estimates.len().saturating_sub(jobs.len());
+    if unused > 0 {
+        terminal.say(&format!(
+            "{} without a correspondence file left out",
+            plural(unused, "pose")
+        ));
+    }
+    Ok(jobs)
+}
+
+/// The names that a pose's correspondences may have in a folder.
+fn in_folder(folder: &Path, image: &str) -> Result<PathBuf, Failure> {
+    [
+        format!("{image}_corr.txt"),
+        format!("{image}_corr.csv"),
+        format!("{image}.csv"),
+        format!("{image}.txt"),
+    ]
+    .into_iter()
+    .map(|name| folder.join(name))
+    .find(|path| path.is_file())
+    .ok_or_else(|| {
+        Failure::BadInput(format!(
+            "{}: no correspondences of pose {image}, expected {image}_corr.txt or {image}.csv",
+            folder.display()
+        ))
+    })
+}
+
+fn image_of(file: &Path) -> String {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    stem.strip_suffix("_corr").unwrap_or(&stem).to_owned()
+}
+
+/// The same id, or the same number: `000061` and `61`.
+fn same_image(a: &str, b: &str) -> bool {
+    let number = |text: &str| text.parse::<u64>().ok();
+    a == b || (number(a).is_some() && number(a) == number(b))
+}
+
+fn warn_of_scale(
+    template: &Template<'_>,
+    estimate: &Estimate,
+    correspondences: &[Correspondence],
+    file: &Path,
+    terminal: &Terminal,
+) {
+    if let Some(doubt) = doubt_point_scale(template, correspondences) {
+        terminal.warn(&format!("{}: {doubt}", file.display()));
+    }
+    if let Some(doubt) = doubt_pose_scale(template, &estimate.pose) {
+        terminal.warn(&format!("translation of pose {}: {doubt}", estimate.id));
+    }
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    template: &'a str,
+    unit: &'static str,
+    likelihood: &'static str,
+    assignment: &'static str,
+    delta: f32,
+    poses: Vec<PoseDocument<'a>>,
+}
+
+#[derive(Serialize)]
+struct PoseDocument<'a> {
+    id: &'a str,
+    points: u32,
+    confidence: f32,
+    threshold: f32,
+    decision: &'static str,
+    reason: &'static str,
+    inlier_share: f32,
+    weight_sum: f32,
+    behind_camera: u32,
+}
+
+fn document<'a>(
+    template: &'a Template<'_>,
+    settings: &Settings,
+    scored: &[(&'a str, Report)],
+) -> Document<'a> {
+    Document {
+        schema: 1,
+        template: template.name(),
+        unit: template.unit().symbol(),
+        likelihood: match settings.likelihood {
+            Likelihood::Peak => "peak",
+            Likelihood::Density => "density",
+        },
+        assignment: match settings.assignment {
+            Assignment::Nearest => "nearest",
+            Assignment::Maximum => "max",
+        },
+        delta: settings.delta,
+        poses: scored
+            .iter()
+            .map(|(id, report)| PoseDocument {
+                id,
+                points: report.points,
+                confidence: report.confidence,
+                threshold: report.threshold,
+                decision: report.decision.name(),
+                reason: report.decision.reason(),
+                inlier_share: report.inlier_share,
+                weight_sum: report.weight_sum,
+                behind_camera: report.behind_camera,
+            })
+            .collect(),
+    }
+}
+
+fn text(template: &Template<'_>, settings: &Settings, scored: &[(&str, Report)]) -> String {
+    let rows: Vec<Vec<String>> = scored
+        .iter()
+        .map(|(id, report)| {
+            vec![
+                (*id).to_owned(),
+                report.points.to_string(),
+                format!("{:.3}", report.confidence),
+                format!("{:.3}", report.threshold),
+                format!("{:.0} %", 100.0 * report.inlier_share),
+                report.decision.name().to_owned(),
+                report.decision.reason().to_owned(),
+            ]
+        })
+        .collect();
+    let within = format!("within {:.3} {}", settings.delta, template.unit().symbol());
+    let header = [
+        "pose",
+        "points",
+        "confidence",
+        "threshold",
+        &within,
+        "decision",
+        "reason",
+    ];
+    table(&header, &["pose", "decision", "reason"], &rows)
+}

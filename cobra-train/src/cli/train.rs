@@ -1,0 +1,202 @@
+//! `cobra train`: a mesh becomes a template file.
+
+use super::args::TrainArguments;
+use super::failure::Failure;
+use super::report::{JsonTarget, plural};
+use super::terminal::Terminal;
+use cobra_infer::template::NAME_CAPACITY;
+use cobra_infer::{Kernel, Template, Unit};
+use cobra_train::output::{check_writable, write_whole};
+use cobra_train::progress::Progress;
+use cobra_train::reference::read_reference_points;
+use cobra_train::surface::{Mesh, read_mesh};
+use cobra_train::train::{ReferencePoints, TrainOptions, Trained, train};
+use serde::Serialize;
+use std::path::Path;
+
+/// Components unless the user says otherwise.
+const COMPONENTS: u32 = 16;
+
+/// Objects smaller or larger than this are more likely in another unit, in millimetres.
+const PLAUSIBLE_DIAMETER: std::ops::RangeInclusive<f64> = 2.0..=20_000.0;
+
+pub(super) fn run(arguments: &TrainArguments, terminal: &Terminal) -> Result<(), Failure> {
+    if same_file(&arguments.mesh, &arguments.output) {
+        return Err(Failure::Usage(format!(
+            "{} is both the mesh and the output",
+            arguments.mesh.display()
+        )));
+    }
+    let options = options(arguments)?;
+    check_writable(&arguments.output)?;
+    let mesh = read_mesh(&arguments.mesh)?;
+    describe(&mesh, options.unit, terminal);
+    let trained = train(&mesh, &options, terminal)
+        .map_err(|error| Failure::BadInput(format!("{}: {error}", arguments.mesh.display())))?;
+    write_whole(&arguments.output, &trained.bytes)?;
+    let template = Template::from_bytes(&trained.bytes)
+        .map_err(|error| Failure::template(&arguments.output, &error))?;
+    let json = JsonTarget(arguments.json.as_ref());
+    json.write(&document(&template, &trained, &options), terminal)?;
+    if !json.replaces_the_table() {
+        terminal.print(&format!(
+            "{}: {}, {} terms, {} bytes",
+            arguments.output.display(),
+            plural(template.component_count(), "component"),
+            template.term_count(),
+            trained.bytes.len()
+        ))?;
+    }
+    Ok(())
+}
+
+fn options(arguments: &TrainArguments) -> Result<TrainOptions, Failure> {
+    let stem = arguments.mesh.file_stem().unwrap_or_default();
+    let name = match &arguments.name {
+        Some(name) if name.len() > NAME_CAPACITY => {
+            return Err(Failure::Usage(format!(
+                "--name has {} bytes, at most {NAME_CAPACITY} fit",
+                name.len()
+            )));
+        }
+        Some(name) => name.clone(),
+        None => shortened(&stem.to_string_lossy()),
+    };
+    let reference_points = match arguments.reference_points.as_str() {
+        "kmeans" => ReferencePoints::KMeans {
+            components: arguments.components.unwrap_or(COMPONENTS) as usize,
+        },
+        file => {
+            let points = read_reference_points(Path::new(file))?;
+            match arguments.components {
+                Some(components) if components as usize != points.len() => {
+                    return Err(Failure::Usage(format!(
+                        "--components {components}, but {file} has {}",
+                        plural(points.len(), "reference point")
+                    )));
+                }
+                _ => ReferencePoints::Given(points),
+            }
+        }
+    };
+    let mut options = TrainOptions::new(name);
+    options.unit = arguments.unit.into();
+    options.points = arguments.points as usize;
+    options.test_points = arguments.test_points as usize;
+    options.reference_points = reference_points;
+    options.fit.kernel = Kernel::RationalQuadratic(arguments.exponent.into());
+    options.seed = arguments.seed;
+    Ok(options)
+}
+
+fn describe(mesh: &Mesh, unit: Unit, terminal: &Terminal) {
+    let diameter = mesh.diameter();
+    terminal.say(&format!(
+        "mesh: {}, diameter {diameter:.4} {}",
+        plural(mesh.triangles().len(), "triangle"),
+        unit.symbol()
+    ));
+    if mesh.dropped_triangles() > 0 {
+        terminal.detail(&format!(
+            "{} without area left out",
+            plural(mesh.dropped_triangles(), "triangle")
+        ));
+    }
+    let millimetres = diameter * f64::from(unit.millimetres());
+    if !PLAUSIBLE_DIAMETER.contains(&millimetres) {
+        terminal.warn(&format!(
+            "an object {millimetres:.4} mm across: is --unit {} the mesh's unit?",
+            unit.symbol()
+        ));
+    }
+}
+
+/// The same file, by whatever name.
+fn same_file(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => a == b,
+    }
+}
+
+/// At most [`NAME_CAPACITY`] bytes of a name, cut between characters.
+fn shortened(name: &str) -> String {
+    let mut end = name.len().min(NAME_CAPACITY);
+    while !name.is_char_boundary(end) {
+        end -= 1;
+    }
+    name[..end].to_owned()
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    name: &'a str,
+    unit: &'static str,
+    diameter: f32,
+    radius: f32,
+    bytes: usize,
+    points: usize,
+    test_points: usize,
+    seed: u64,
+    components: Vec<ComponentDocument>,
+}
+
+#[derive(Serialize)]
+struct ComponentDocument {
+    centre: [f32; 3],
+    sigma_hat: f32,
+    terms: usize,
+    test_points: usize,
+    length_scale: f64,
+    exponent: f64,
+    prior_mean: f32,
+    /// Of the unit sphere.
+    signal_variance: f64,
+    /// Of the unit sphere.
+    noise_variance: f64,
+    /// Negative log marginal likelihood per point of the subset that it was learned on.
+    likelihood_per_point: f64,
+    iterations: u64,
+    stop: String,
+}
+
+fn document<'a>(
+    template: &'a Template<'_>,
+    trained: &Trained,
+    options: &TrainOptions,
+) -> Document<'a> {
+    Document {
+        schema: 1,
+        name: template.name(),
+        unit: template.unit().symbol(),
+        diameter: template.diameter(),
+        radius: template.radius(),
+        bytes: trained.bytes.len(),
+        points: options.points,
+        test_points: options.test_points,
+        seed: options.seed,
+        components: template
+            .components()
+            .zip(&trained.components)
+            .map(|(component, trained)| {
+                let learned = &trained.fitted.learned;
+                let h = &learned.hyperparameters;
+                ComponentDocument {
+                    centre: component.centre,
+                    sigma_hat: component.sigma_hat,
+                    terms: component.terms.len(),
+                    test_points: trained.test_points,
+                    length_scale: h.length_scale,
+                    exponent: h.exponent,
+                    prior_mean: component.hyperparameters.prior_mean,
+                    signal_variance: h.signal_variance,
+                    noise_variance: h.noise_variance,
+                    likelihood_per_point: learned.likelihood_per_point,
+                    iterations: learned.iterations,
+                    stop: format!("{:?}", learned.stop).to_lowercase(),
+                }
+            })
+            .collect(),
+    }
+}
