@@ -72,6 +72,7 @@ mod unit;
 
 pub use camera::{Camera, Correspondence};
 pub use error::{CameraError, EncodeError, PoseError, ScoreError, Section, TemplateError};
+pub use gp::UnitDirection;
 pub use kernel::{Exponent, Kernel, Metric};
 pub use mixture::{Assignment, Likelihood, Mixture, Settings, Sigma};
 pub use pose::Pose;

@@ -1,0 +1,15 @@
+//! Every tolerance that a cross-crate test asserts, in one table; `docs/TOLERANCES.md` quotes it.
+
+/// Posterior mean of the trained process against an independent dense solve in `f64`, as a share of
+/// the bounding sphere's radius: the Gram matrices' condition, at most 10⁶, times `f64`'s rounding.
+pub const DENSE_MEAN: f64 = 1e-8;
+
+/// Negative log marginal likelihood against the same, relative.
+pub const DENSE_LIKELIHOOD: f64 = 1e-9;
+
+/// Gradient of the likelihood against central differences of step 10⁻⁵, relative to the largest
+/// entry: their own truncation and rounding.
+pub const FINITE_DIFFERENCE: f64 = 1e-6;
+
+/// The template's `f32` posterior mean against the trained process in `f64`, in units of σ̂.
+pub const SINGLE_PRECISION_MEAN: f64 = 0.01;
