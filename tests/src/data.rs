@@ -1,10 +1,11 @@
 //! Where the real data lies, if it is there.
 
+use std::io::Write;
 use std::path::PathBuf;
 
 /// The folder of real meshes and estimates: `COBRA_SHARED`, else `shared` beside the workspace.
 ///
-/// Prints `skipped: …` and returns `None` where it is missing, so that a test can pass and say what
+/// Says `skipped: …` on standard error and returns `None` where it is missing, so that a test can pass and say what
 /// it did not test.
 #[must_use]
 pub fn real_data(test: &str) -> Option<PathBuf> {
@@ -16,7 +17,9 @@ pub fn real_data(test: &str) -> Option<PathBuf> {
     if folder.is_dir() {
         Some(folder)
     } else {
-        println!("skipped: {test}: {} is not there", folder.display());
+        // Straight to standard error: what `println!` writes, the test runner keeps to itself.
+        let line = format!("skipped: {test}: {} is not there", folder.display());
+        let _ = writeln!(std::io::stderr(), "{line}");
         None
     }
 }

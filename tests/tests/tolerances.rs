@@ -15,6 +15,7 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("DENSE_LIKELIHOOD", asserted::DENSE_LIKELIHOOD),
         ("FINITE_DIFFERENCE", asserted::FINITE_DIFFERENCE),
         ("SINGLE_PRECISION_MEAN", asserted::SINGLE_PRECISION_MEAN),
+        ("ON_SURFACE", asserted::ON_SURFACE),
     ];
     let rows: Vec<(&str, f64)> = page
         .lines()

@@ -1,19 +1,11 @@
 //! Real meshes from many sources: all of them are read, and sampled on their surface.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
+use cobra_tests::data::real_data;
+use cobra_tests::tolerance;
 use cobra_train::random::Purpose;
 use cobra_train::surface::{RayCaster, read_mesh, sample_visible};
-
-/// The folder of shared data, if there is one.
-fn shared() -> Option<PathBuf> {
-    let folder = std::env::var_os("COBRA_SHARED").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared"),
-        PathBuf::from,
-    );
-    folder.join("data/meshes").is_dir().then_some(folder)
-}
 
 fn collect_meshes(folder: &Path, found: &mut Vec<PathBuf>) {
     let Ok(entries) = std::fs::read_dir(folder) else {
@@ -31,22 +23,18 @@ fn collect_meshes(folder: &Path, found: &mut Vec<PathBuf>) {
 
 #[test]
 fn every_mesh_is_read_and_sampled_on_its_surface() {
-    let Some(shared) = shared() else {
-        println!("skipped: no shared data; COBRA_SHARED names its folder");
+    let Some(data) = real_data("reading and sampling every mesh") else {
         return;
     };
     let mut paths = Vec::new();
-    collect_meshes(&shared.join("data/meshes"), &mut paths);
-    collect_meshes(&shared.join("data/screwdriver"), &mut paths);
+    collect_meshes(&data.join("meshes"), &mut paths);
+    collect_meshes(&data.join("screwdriver"), &mut paths);
     paths.sort();
     assert!(!paths.is_empty());
     let mut failures = Vec::new();
     for path in &paths {
-        let start = Instant::now();
         match farthest_sample(path) {
-            Ok(farthest) if farthest < 1e-9 => {
-                println!("{} {farthest:.1e} {:?}", path.display(), start.elapsed());
-            }
+            Ok(farthest) if farthest < tolerance::ON_SURFACE => {}
             Ok(farthest) => failures.push(format!("{}: {farthest} off", path.display())),
             Err(error) => failures.push(format!("{}: {error}", path.display())),
         }
