@@ -170,11 +170,12 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
         let back =
             self.camera
                 .back_project(&self.pose, &correspondence.pixel, &correspondence.point);
-        let found = if back.depth > 0.0 {
-            self.mixture.evaluate(&back.point)
-        } else {
+        // An overflow makes the depth NaN: that point is nowhere, not behind the camera.
+        let found = if back.depth <= 0.0 {
             self.behind_camera = self.behind_camera.saturating_add(1);
             None
+        } else {
+            self.mixture.evaluate(&back.point)
         };
         let likelihood = found.map_or(0.0, |found| found.likelihood);
         if found.is_some_and(|found| math::abs(found.residual()) <= self.delta) {
