@@ -37,7 +37,8 @@ pub enum Rejection {
 pub enum Doubt {
     /// Fewer points than [`Settings::minimum_points`].
     TooFewPoints,
-    /// The weights add up to 0.
+    /// The weights add up to 0, or are below [`f32::MIN_POSITIVE`] on average: their products with
+    /// likelihoods would have too few bits left to decide on.
     NoWeight,
     /// A pixel, point or weight was NaN or infinite, or the weights add up to more than an `f32`
     /// holds.
@@ -66,7 +67,7 @@ impl Decision {
             Decision::Reject(Rejection::NoSupport) => "no point lies on the surface",
             Decision::Reject(Rejection::BehindCamera) => "every point lies behind the camera",
             Decision::Undecided(Doubt::TooFewPoints) => "too few points",
-            Decision::Undecided(Doubt::NoWeight) => "the weights add up to zero",
+            Decision::Undecided(Doubt::NoWeight) => "the weights add up to zero or next to nothing",
             Decision::Undecided(Doubt::NonFiniteInput) => "a number in the input is not finite",
             Decision::Undecided(Doubt::NegativeWeight) => "a weight is negative",
         }
@@ -212,18 +213,19 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
             decision: Decision::Accept,
         };
         let overflow = !(weight_sum.is_finite() && confidence.is_finite() && threshold.is_finite());
+        let no_weight = weight_sum < f32::MIN_POSITIVE * self.points.max(1) as f32;
         let doubt = if self.doubt.is_some() {
             self.doubt
         } else if self.points < self.minimum_points.max(1) {
             Some(Doubt::TooFewPoints)
-        } else if weight_sum == 0.0 {
+        } else if no_weight {
             Some(Doubt::NoWeight)
         } else if overflow {
             Some(Doubt::NonFiniteInput)
         } else {
             None
         };
-        if overflow {
+        if overflow || no_weight {
             report.confidence = 0.0;
             report.threshold = 0.0;
             if weight_sum.is_nan() {
