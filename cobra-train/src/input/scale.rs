@@ -23,27 +23,26 @@ const IMPLAUSIBLE: f32 = 5.0;
 
 /// Doubts whether object points are in the template's unit: their extent against the object's.
 ///
-/// The extent is the largest distance of a finite point from the bounding sphere's centre.
+/// Measured from the frame's origin, which is the same in every unit; the object's centre is not.
 #[must_use]
 pub fn doubt_point_scale(
     template: &Template<'_>,
     correspondences: &[Correspondence],
 ) -> Option<ScaleDoubt> {
-    let [x, y, z] = template.centre();
-    let centre = nalgebra::Point3::new(x, y, z);
+    let centre = nalgebra::Vector3::from(template.centre());
     let mut extents: Vec<f32> = correspondences
         .iter()
         .filter(|c| c.is_finite())
-        .map(|c| c.point.coords.norm().max((c.point - centre).norm()))
+        .map(|c| c.point.coords.norm())
         .collect();
     extents.sort_by(f32::total_cmp);
     // The median, so that a few outliers neither raise nor hide the doubt.
     let found = *extents.get(extents.len() / 2)?;
-    let largest = template.radius() + centre.coords.norm();
+    let largest = template.radius() + centre.norm();
     let smallest_unit = largest / 100.0;
     let too_small = extents.last().is_some_and(|most| *most < smallest_unit);
     (too_small || found > IMPLAUSIBLE * largest).then(|| ScaleDoubt {
-        seems: guess(template.unit(), found, template.radius()),
+        seems: guess(template.unit(), found, largest),
         taken: template.unit(),
         found,
         expected: template.radius(),
