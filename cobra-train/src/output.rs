@@ -32,10 +32,11 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
         path: path.to_owned(),
         source,
     };
-    let mut file = beside(path)?;
+    let target = behind_links(path)?;
+    let mut file = beside(path, &target)?;
     file.write_all(bytes).map_err(io)?;
     file.as_file().sync_all().map_err(io)?;
-    file.persist(path).map_err(|error| io(error.error))?;
+    file.persist(&target).map_err(|error| io(error.error))?;
     Ok(())
 }
 
@@ -44,16 +45,40 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 /// # Errors
 /// [`WriteError`], as [`write_whole`].
 pub fn check_writable(path: &Path) -> Result<(), WriteError> {
-    beside(path).map(drop)
+    beside(path, &behind_links(path)?).map(drop)
 }
 
-fn beside(path: &Path) -> Result<tempfile::NamedTempFile, WriteError> {
-    if path.exists() && !path.is_file() {
-        return Err(WriteError::NotAFile {
-            path: path.to_owned(),
-        });
+/// The file that `path` stands for: a rename onto a link would replace the link.
+fn behind_links(path: &Path) -> Result<PathBuf, WriteError> {
+    let io = |source| WriteError::Io {
+        path: path.to_owned(),
+        source,
+    };
+    // A name with a separator behind it is a folder's, whether there is one or not.
+    let bytes = path.as_os_str().as_encoded_bytes();
+    if bytes
+        .last()
+        .is_some_and(|last| std::path::is_separator(char::from(*last)))
+    {
+        return Err(io(std::io::ErrorKind::IsADirectory.into()));
     }
-    let folder = match path.parent() {
+    match path.metadata() {
+        Ok(metadata) if !metadata.is_file() => Err(WriteError::NotAFile {
+            path: path.to_owned(),
+        }),
+        Ok(_) if path.is_symlink() => path.canonicalize().map_err(io),
+        Ok(_) => Ok(path.to_owned()),
+        // A link to nothing is left alone: where it leads is somebody's intention.
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound || path.is_symlink() => {
+            Err(io(error))
+        }
+        Err(_) => Ok(path.to_owned()),
+    }
+}
+
+/// An empty file in `target`'s folder; errors name `path`.
+fn beside(path: &Path, target: &Path) -> Result<tempfile::NamedTempFile, WriteError> {
+    let folder = match target.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
@@ -102,5 +127,27 @@ mod tests {
             write_whole(folder.path(), b"x"),
             Err(WriteError::NotAFile { .. })
         ));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_followed_and_a_link_to_nothing_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let [target, link] = ["target", "link"].map(|name| folder.path().join(name));
+        std::os::unix::fs::symlink("target", &link).unwrap();
+        assert!(check_writable(&link).is_err());
+        assert!(link.is_symlink() && !target.exists());
+        std::fs::write(&target, b"old").unwrap();
+        write_whole(&link, b"new").unwrap();
+        assert!(link.is_symlink());
+        assert_eq!(std::fs::read(&target).unwrap(), b"new");
+    }
+
+    #[test]
+    fn a_name_that_no_file_can_have_is_found_beforehand() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["x".repeat(300), "new/".to_owned()] {
+            assert!(check_writable(&folder.path().join(name)).is_err());
+        }
     }
 }

@@ -1,7 +1,7 @@
-//! Where the real data lies, if it is there.
+//! Where the real data lies, if it is there, and what files it holds.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The folder of real meshes and estimates: `COBRA_SHARED`, else `shared` beside the workspace.
 ///
@@ -22,4 +22,23 @@ pub fn real_data(test: &str) -> Option<PathBuf> {
         let _ = writeln!(std::io::stderr(), "{line}");
         None
     }
+}
+
+/// All files below `folder` with one of the extensions, in order.
+#[must_use]
+pub fn files_below(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            found.extend(files_below(&path, extensions));
+        } else if path
+            .extension()
+            .is_some_and(|e| extensions.iter().any(|wanted| e == *wanted))
+        {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
 }

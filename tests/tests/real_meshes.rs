@@ -1,35 +1,19 @@
 //! Real meshes from many sources: all of them are read, and sampled on their surface.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use cobra_tests::data::real_data;
+use cobra_tests::data::{files_below, real_data};
 use cobra_tests::tolerance;
 use cobra_train::random::Purpose;
 use cobra_train::surface::{RayCaster, read_mesh, sample_visible};
-
-fn collect_meshes(folder: &Path, found: &mut Vec<PathBuf>) {
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return;
-    };
-    for path in entries.flatten().map(|entry| entry.path()) {
-        let extension = path.extension().and_then(|e| e.to_str());
-        if path.is_dir() {
-            collect_meshes(&path, found);
-        } else if matches!(extension, Some("ply" | "obj" | "stl")) {
-            found.push(path);
-        }
-    }
-}
 
 #[test]
 fn every_mesh_is_read_and_sampled_on_its_surface() {
     let Some(data) = real_data("reading and sampling every mesh") else {
         return;
     };
-    let mut paths = Vec::new();
-    collect_meshes(&data.join("meshes"), &mut paths);
-    collect_meshes(&data.join("screwdriver"), &mut paths);
-    paths.sort();
+    let mut paths = files_below(&data.join("meshes"), &["obj", "ply", "stl"]);
+    paths.extend(files_below(&data.join("screwdriver"), &["ply"]));
     assert!(!paths.is_empty());
     let mut failures = Vec::new();
     for path in &paths {

@@ -16,6 +16,8 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("FINITE_DIFFERENCE", asserted::FINITE_DIFFERENCE),
         ("SINGLE_PRECISION_MEAN", asserted::SINGLE_PRECISION_MEAN),
         ("ON_SURFACE", asserted::ON_SURFACE),
+        ("REAL_CONFIDENCE", asserted::REAL_CONFIDENCE),
+        ("EXACT_CONFIDENCE", asserted::EXACT_CONFIDENCE),
     ];
     let rows: Vec<(&str, f64)> = page
         .lines()

@@ -6,6 +6,9 @@ use cobra_infer::{Assignment, Exponent, Likelihood, Unit};
 use cobra_train::input::Weighting;
 use std::path::PathBuf;
 
+/// Global options come after a command's own.
+const LAST: usize = 900;
+
 /// Trains shape templates and scores 6D object poses against them.
 #[derive(Debug, Parser)]
 #[command(
@@ -23,11 +26,11 @@ pub(crate) struct Arguments {
     pub(crate) command: Command,
 
     /// Print results, warnings and errors only
-    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    #[arg(short, long, global = true, conflicts_with = "verbose", display_order = LAST)]
     pub(crate) quiet: bool,
 
     /// Print details of what is done
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, display_order = LAST)]
     pub(crate) verbose: bool,
 }
 
@@ -52,7 +55,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Writes bracket.cobra, poses.csv and poses.png into the folder.\n\n\
+    after_help = "Writes bracket.cobra, poses.csv and poses.png into the folder; lengths are in mm.\n\n\
                         Example:\n  cobra demo -o demo-output"
 )]
 pub(crate) struct DemoArguments {
@@ -94,7 +97,7 @@ pub(crate) struct TrainArguments {
 
     /// `kmeans`, or a text file with x y z a line in the mesh's frame and unit
     #[arg(long, value_name = "kmeans|FILE", default_value = "kmeans")]
-    pub(crate) reference_points: String,
+    pub(crate) reference_points: PathBuf,
 
     /// Components (reference points); with a file, the number of its lines [default: 16]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=1024))]
@@ -229,7 +232,9 @@ pub(crate) struct EvalArguments {
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = "Example:\n  cobra inspect part.cobra")]
+#[command(
+    after_help = "Lengths are in the template's unit.\n\nExample:\n  cobra inspect part.cobra"
+)]
 pub(crate) struct InspectArguments {
     /// Template file
     #[arg(value_name = "FILE.cobra")]

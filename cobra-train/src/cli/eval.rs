@@ -2,17 +2,18 @@
 
 use super::args::EvalArguments;
 use super::failure::Failure;
+use super::outputs;
 use super::report::{JsonTarget, table};
 use super::template_file;
 use super::terminal::Terminal;
 use cobra_infer::{Assignment, Template};
 use cobra_train::evaluate::{Evaluation, ResidualSummary, ShapeMetrics, evaluate, write_points};
-use cobra_train::output::check_writable;
 use cobra_train::progress::Progress;
 use cobra_train::random::Purpose;
 use cobra_train::surface::{Mesh, RayCaster, read_mesh, sample_visible};
 use nalgebra::Point3;
 use serde::Serialize;
+use std::path::Path;
 
 /// A mesh whose bounding sphere's radius differs by more than this share is not the template's.
 const SAME_OBJECT: f64 = 0.01;
@@ -21,9 +22,11 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
     let bytes = template_file::read(&arguments.template)?;
     let template = Template::from_bytes(&bytes)
         .map_err(|error| Failure::template(&arguments.template, &error))?;
-    if let Some(path) = &arguments.points_out {
-        check_writable(path)?;
-    }
+    let written: Vec<&Path> = outputs::json_file(arguments.json.as_ref())
+        .into_iter()
+        .chain(arguments.points_out.as_deref())
+        .collect();
+    outputs::check(&[&arguments.template, &arguments.mesh], &written)?;
     let mesh = read_mesh(&arguments.mesh)?;
     warn_of_another_object(&template, &mesh, terminal);
     let points = test_points(&mesh, arguments)?;

@@ -69,25 +69,31 @@ impl From<ReadMeshError> for Failure {
 
 impl From<ReadReferencePointsError> for Failure {
     fn from(error: ReadReferencePointsError) -> Self {
-        classify(matches!(error, ReadReferencePointsError::Io { .. }), &error)
+        let io =
+            matches!(&error, ReadReferencePointsError::Io { source, .. } if !is_content(source));
+        classify(io, &error)
     }
 }
 
 impl From<ReadCameraError> for Failure {
     fn from(error: ReadCameraError) -> Self {
-        classify(matches!(error, ReadCameraError::Io { .. }), &error)
+        let io = matches!(&error, ReadCameraError::Io { source, .. } if !is_content(source));
+        classify(io, &error)
     }
 }
 
 impl From<ReadEstimatesError> for Failure {
     fn from(error: ReadEstimatesError) -> Self {
-        classify(matches!(error, ReadEstimatesError::Io { .. }), &error)
+        let io = matches!(&error, ReadEstimatesError::Io { source, .. } if !is_content(source));
+        classify(io, &error)
     }
 }
 
 impl From<ReadCorrespondencesError> for Failure {
     fn from(error: ReadCorrespondencesError) -> Self {
-        classify(matches!(error, ReadCorrespondencesError::Io { .. }), &error)
+        let io =
+            matches!(&error, ReadCorrespondencesError::Io { source, .. } if !is_content(source));
+        classify(io, &error)
     }
 }
 
@@ -101,6 +107,11 @@ impl From<ScoreError> for Failure {
     fn from(error: ScoreError) -> Self {
         Failure::BadInput(error.to_string())
     }
+}
+
+/// Bytes that are no text are the file's fault, although the reader calls them an I/O error.
+fn is_content(error: &std::io::Error) -> bool {
+    error.kind() == std::io::ErrorKind::InvalidData
 }
 
 fn classify(io: bool, error: &dyn std::error::Error) -> Failure {

@@ -2,6 +2,7 @@
 
 use super::args::InspectArguments;
 use super::failure::Failure;
+use super::outputs;
 use super::report::{JsonTarget, table};
 use super::template_file;
 use super::terminal::Terminal;
@@ -13,6 +14,9 @@ pub(super) fn run(arguments: &InspectArguments, terminal: &Terminal) -> Result<(
     let bytes = template_file::read(&arguments.template)?;
     let template = Template::from_bytes(&bytes)
         .map_err(|error| Failure::template(&arguments.template, &error))?;
+    if let Some(path) = outputs::json_file(arguments.json.as_ref()) {
+        outputs::check(&[&arguments.template], &[path])?;
+    }
     let document = Document::new(&template, bytes.len());
     let json = JsonTarget(arguments.json.as_ref());
     json.write(&document, terminal)?;

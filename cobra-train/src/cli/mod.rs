@@ -8,6 +8,7 @@ mod demo;
 mod eval;
 mod failure;
 mod inspect;
+mod outputs;
 mod report;
 mod score;
 mod template_file;

@@ -1,7 +1,7 @@
 //! Tables for people and JSON for programs.
 
 use super::failure::Failure;
-use super::terminal::Terminal;
+use super::terminal::{Terminal, one_line};
 use cobra_train::output::write_whole;
 use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
@@ -37,7 +37,7 @@ pub(crate) fn table(header: &[&str], left: &[&str], rows: &[Vec<String>]) -> Str
     table.load_style(presets::NOTHING);
     table.set_header(header);
     for row in rows {
-        table.add_row(row);
+        table.add_row(row.iter().map(|cell| one_line(cell)));
     }
     for (column, name) in table.column_iter_mut().zip(header) {
         column.set_padding((0, 2));

@@ -2,6 +2,7 @@
 
 use super::args::ScoreArguments;
 use super::failure::Failure;
+use super::outputs;
 use super::report::{JsonTarget, plural, table};
 use super::template_file;
 use super::terminal::Terminal;
@@ -16,6 +17,7 @@ use cobra_train::input::{
 use cobra_train::progress::Progress;
 use cobra_train::train::LARGEST_TEMPLATE;
 use serde::Serialize;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(), Failure> {
@@ -26,6 +28,15 @@ pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(),
     let estimates = read_estimates(&arguments.poses)?;
     let settings = settings(arguments, &template);
     let jobs = pair(&estimates, &arguments.correspondences, terminal)?;
+    if let Some(path) = outputs::json_file(arguments.json.as_ref()) {
+        let mut inputs = vec![
+            arguments.template.as_path(),
+            arguments.camera.as_path(),
+            arguments.poses.as_path(),
+        ];
+        inputs.extend(jobs.iter().map(|(_, file)| file.as_path()));
+        outputs::check(&inputs, &[path])?;
+    }
 
     let mut scored = Vec::with_capacity(jobs.len());
     for (estimate, file) in &jobs {
@@ -116,7 +127,10 @@ fn pair<'e>(
     }
     let mut jobs = Vec::new();
     for file in inputs {
-        if file.is_dir() {
+        let metadata = file
+            .metadata()
+            .map_err(|error| Failure::Io(format!("{}: {error}", file.display())))?;
+        if metadata.is_dir() {
             return Err(Failure::Usage(format!(
                 "{}: a folder stands alone, files may be several",
                 file.display()
@@ -164,12 +178,28 @@ fn in_folder(folder: &Path, image: &str) -> Result<PathBuf, Failure> {
     .into_iter()
     .map(|name| folder.join(name))
     .find(|path| path.is_file())
+    .or_else(|| with_other_zeros(folder, image))
     .ok_or_else(|| {
         Failure::BadInput(format!(
             "{}: no correspondences of pose {image}, expected {image}_corr.txt or {image}.csv",
             folder.display()
         ))
     })
+}
+
+/// The file of the same number, first by name: `000061_corr.txt` for pose 61.
+fn with_other_zeros(folder: &Path, image: &str) -> Option<PathBuf> {
+    let entries = std::fs::read_dir(folder).ok()?;
+    entries
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| {
+            let extension = path.extension().and_then(OsStr::to_str);
+            matches!(extension, Some("csv" | "txt"))
+                && same_image(&image_of(path), image)
+                && path.is_file()
+        })
+        .min()
 }
 
 fn image_of(file: &Path) -> String {

@@ -11,14 +11,15 @@ use std::path::Path;
 /// file that is no template is never loaded.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     let io = |error: std::io::Error| Failure::Io(format!("{}: {error}", path.display()));
-    let mut file = File::open(path).map_err(io)?;
-    let metadata = file.metadata().map_err(io)?;
+    // Before it is opened: opening a pipe waits for whoever writes to it.
+    let metadata = path.metadata().map_err(io)?;
     if !metadata.is_file() {
         return Err(Failure::Io(format!(
             "{}: not a regular file",
             path.display()
         )));
     }
+    let mut file = File::open(path).map_err(io)?;
     let mut bytes = Vec::new();
     (&mut file)
         .take(HEADER_LENGTH as u64)

@@ -2,11 +2,12 @@
 
 use super::args::TrainArguments;
 use super::failure::Failure;
+use super::outputs;
 use super::report::{JsonTarget, plural};
 use super::terminal::Terminal;
 use cobra_infer::template::NAME_CAPACITY;
 use cobra_infer::{Kernel, Template, Unit};
-use cobra_train::output::{check_writable, write_whole};
+use cobra_train::output::write_whole;
 use cobra_train::progress::Progress;
 use cobra_train::reference::read_reference_points;
 use cobra_train::surface::{Mesh, read_mesh};
@@ -21,14 +22,12 @@ const COMPONENTS: u32 = 16;
 const PLAUSIBLE_DIAMETER: std::ops::RangeInclusive<f64> = 2.0..=20_000.0;
 
 pub(super) fn run(arguments: &TrainArguments, terminal: &Terminal) -> Result<(), Failure> {
-    if same_file(&arguments.mesh, &arguments.output) {
-        return Err(Failure::Usage(format!(
-            "{} is both the mesh and the output",
-            arguments.mesh.display()
-        )));
-    }
+    let mut inputs = vec![arguments.mesh.as_path()];
+    inputs.extend(centres_file(arguments));
+    let mut written = vec![arguments.output.as_path()];
+    written.extend(outputs::json_file(arguments.json.as_ref()));
+    outputs::check(&inputs, &written)?;
     let options = options(arguments)?;
-    check_writable(&arguments.output)?;
     let mesh = read_mesh(&arguments.mesh)?;
     describe(&mesh, options.unit, terminal);
     let trained = train(&mesh, &options, terminal)
@@ -62,16 +61,17 @@ fn options(arguments: &TrainArguments) -> Result<TrainOptions, Failure> {
         Some(name) => name.clone(),
         None => shortened(&stem.to_string_lossy()),
     };
-    let reference_points = match arguments.reference_points.as_str() {
-        "kmeans" => ReferencePoints::KMeans {
+    let reference_points = match centres_file(arguments) {
+        None => ReferencePoints::KMeans {
             components: arguments.components.unwrap_or(COMPONENTS) as usize,
         },
-        file => {
-            let points = read_reference_points(Path::new(file))?;
+        Some(file) => {
+            let points = read_reference_points(file)?;
             match arguments.components {
                 Some(components) if components as usize != points.len() => {
                     return Err(Failure::Usage(format!(
-                        "--components {components}, but {file} has {}",
+                        "--components {components}, but {} has {}",
+                        file.display(),
                         plural(points.len(), "reference point")
                     )));
                 }
@@ -87,6 +87,11 @@ fn options(arguments: &TrainArguments) -> Result<TrainOptions, Failure> {
     options.fit.kernel = Kernel::RationalQuadratic(arguments.exponent.into());
     options.seed = arguments.seed;
     Ok(options)
+}
+
+/// The file that `--reference-points` names, unless it says `kmeans`.
+fn centres_file(arguments: &TrainArguments) -> Option<&Path> {
+    Some(arguments.reference_points.as_path()).filter(|path| *path != Path::new("kmeans"))
 }
 
 fn describe(mesh: &Mesh, unit: Unit, terminal: &Terminal) {
@@ -108,14 +113,6 @@ fn describe(mesh: &Mesh, unit: Unit, terminal: &Terminal) {
             "an object {millimetres:.4} mm across: is --unit {} the mesh's unit?",
             unit.symbol()
         ));
-    }
-}
-
-/// The same file, by whatever name.
-fn same_file(a: &Path, b: &Path) -> bool {
-    match (a.canonicalize(), b.canonicalize()) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => a == b,
     }
 }
 

@@ -1,5 +1,6 @@
 //! Camera files: the 3×3 matrix K as text.
 
+use super::read_text;
 use cobra_infer::{Camera, CameraError};
 use std::path::{Path, PathBuf};
 
@@ -52,7 +53,7 @@ pub enum ReadCameraError {
 /// [`ReadCameraError`] names the file and the row.
 pub fn read_camera(path: &Path) -> Result<Camera, ReadCameraError> {
     let owned = || path.to_owned();
-    let text = std::fs::read_to_string(path).map_err(|source| ReadCameraError::Io {
+    let text = read_text(path).map_err(|source| ReadCameraError::Io {
         path: owned(),
         source,
     })?;

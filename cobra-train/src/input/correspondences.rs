@@ -73,7 +73,15 @@ pub enum ReadCorrespondencesError {
         /// What stands there.
         found: String,
     },
-    /// The file is not CSV in UTF-8.
+    /// A row is not text in UTF-8.
+    #[error("{}: row {row}: not UTF-8", path.display())]
+    NotUtf8 {
+        /// The file.
+        path: PathBuf,
+        /// The row, from 1, the header being row 1.
+        row: u64,
+    },
+    /// The file is not CSV.
     #[error("{}: {source}", path.display())]
     Csv {
         /// The file.
@@ -111,7 +119,13 @@ pub fn read_correspondences(
             .ok_or_else(|| ReadCorrespondencesError::Column {
                 path: path.to_owned(),
                 column,
-                header: header.iter().collect::<Vec<_>>().join(","),
+                header: header
+                    .iter()
+                    .collect::<Vec<_>>()
+                    .join(",")
+                    .chars()
+                    .take(200)
+                    .collect(),
             })
     };
     let [x, y] = [place("x")?, place("y")?];
@@ -166,6 +180,10 @@ fn csv_error(path: &Path, error: csv::Error) -> ReadCorrespondencesError {
             row: pos.map_or(0, |pos| pos.line()),
             expected: expected_len,
             found: len,
+        },
+        csv::ErrorKind::Utf8 { pos, .. } => ReadCorrespondencesError::NotUtf8 {
+            path,
+            row: pos.map_or(0, |pos| pos.line()),
         },
         kind => ReadCorrespondencesError::Csv {
             path,

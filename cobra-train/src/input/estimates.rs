@@ -1,5 +1,6 @@
 //! Pose files: JSON with an image's poses under its id, as BOP's `scene_gt.json`.
 
+use super::read_text;
 use cobra_infer::{Pose, PoseError};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -68,7 +69,7 @@ pub enum ReadEstimatesError {
 /// # Errors
 /// [`ReadEstimatesError`] names the file and the place in it.
 pub fn read_estimates(path: &Path) -> Result<Vec<Estimate>, ReadEstimatesError> {
-    let text = std::fs::read_to_string(path).map_err(|source| ReadEstimatesError::Io {
+    let text = read_text(path).map_err(|source| ReadEstimatesError::Io {
         path: path.to_owned(),
         source,
     })?;

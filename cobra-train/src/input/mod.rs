@@ -7,6 +7,7 @@ mod camera;
 mod correspondences;
 mod estimates;
 mod scale;
+mod text;
 
 pub use camera::{ReadCameraError, read_camera};
 pub use correspondences::{
@@ -14,3 +15,4 @@ pub use correspondences::{
 };
 pub use estimates::{Estimate, ReadEstimatesError, read_estimates};
 pub use scale::{ScaleDoubt, doubt_point_scale, doubt_pose_scale};
+pub(crate) use text::read_text;

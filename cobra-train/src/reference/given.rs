@@ -1,5 +1,6 @@
 //! Reference points that somebody chose: a text file with three numbers a line.
 
+use crate::input::read_text;
 use nalgebra::Point3;
 use std::path::{Path, PathBuf};
 
@@ -41,7 +42,7 @@ pub enum ReadReferencePointsError {
 /// # Errors
 /// [`ReadReferencePointsError`] names the file and the line.
 pub fn read_reference_points(path: &Path) -> Result<Vec<Point3<f64>>, ReadReferencePointsError> {
-    let text = std::fs::read_to_string(path).map_err(|source| ReadReferencePointsError::Io {
+    let text = read_text(path).map_err(|source| ReadReferencePointsError::Io {
         path: path.to_owned(),
         source,
     })?;

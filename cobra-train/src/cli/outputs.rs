@@ -1,0 +1,42 @@
+//! What is settled about outputs before any work is done.
+
+use super::failure::Failure;
+use cobra_train::output::check_writable;
+use std::path::{Path, PathBuf};
+
+/// Refuses an output that is also an input or another output, and one that cannot be written.
+pub(super) fn check(inputs: &[&Path], outputs: &[&Path]) -> Result<(), Failure> {
+    for (index, output) in outputs.iter().enumerate() {
+        let others = inputs.iter().chain(&outputs[..index]);
+        for (other, role) in others.zip(roles(inputs.len())) {
+            if same_file(other, output) {
+                return Err(Failure::Usage(format!(
+                    "{} is both {role} and an output",
+                    output.display()
+                )));
+            }
+        }
+        check_writable(output)?;
+    }
+    Ok(())
+}
+
+/// The file that `--json` names, if it names one rather than standard output.
+pub(super) fn json_file(json: Option<&PathBuf>) -> Option<&Path> {
+    json.map(PathBuf::as_path)
+        .filter(|path| *path != Path::new("-"))
+}
+
+fn roles(inputs: usize) -> impl Iterator<Item = &'static str> {
+    std::iter::repeat_n("an input", inputs).chain(std::iter::repeat("another output"))
+}
+
+/// The same file, by whatever name.
+fn same_file(a: &Path, b: &Path) -> bool {
+    let resolved = |path: &Path| {
+        path.canonicalize()
+            .or_else(|_| std::path::absolute(path))
+            .unwrap_or_else(|_| path.to_owned())
+    };
+    resolved(a) == resolved(b)
+}

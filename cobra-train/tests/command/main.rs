@@ -1,0 +1,14 @@
+//! The command `cobra`, run as its users run it.
+
+mod demo;
+mod eval;
+mod help;
+mod inspect;
+mod output;
+mod run;
+mod scene;
+mod score;
+mod score_input;
+mod template_input;
+mod train;
+mod train_input;
