@@ -1,5 +1,8 @@
 //! The documented tolerances are the constants.
 
+#[path = "../../cobra-infer/tests/promises/tolerance.rs"]
+mod promised;
+
 use cobra_infer::tolerance as applied;
 use cobra_tests::tolerance as asserted;
 
@@ -18,6 +21,15 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("ON_SURFACE", asserted::ON_SURFACE),
         ("REAL_CONFIDENCE", asserted::REAL_CONFIDENCE),
         ("EXACT_CONFIDENCE", asserted::EXACT_CONFIDENCE),
+        ("ROUNDOFF", promised::ROUNDOFF),
+        ("POSTERIOR_MEAN", promised::POSTERIOR_MEAN),
+        ("CONFIDENCE", promised::CONFIDENCE),
+        ("MAXIMUM_LIKELIHOOD", promised::MAXIMUM_LIKELIHOOD),
+        ("DENSITY", promised::DENSITY),
+        ("BY_HAND", promised::BY_HAND),
+        ("QUADRATURE", promised::QUADRATURE),
+        ("ORTHONORMAL", promised::ORTHONORMAL),
+        ("BACK_PROJECTION", promised::BACK_PROJECTION),
     ];
     let rows: Vec<(&str, f64)> = page
         .lines()

@@ -1,5 +1,9 @@
 //! Scores of any input at all: never NaN, a confidence between 0 and 1, the same bits streamed and
 //! in a batch, and nothing that depends on the order or the scale of what it should not.
+#![expect(
+    clippy::disallowed_methods,
+    reason = "weights are drawn here, not computed on the controller"
+)]
 
 use crate::content::{Content, content};
 use crate::scene::{

@@ -4,11 +4,6 @@
 //! One binary, so that its helpers are compiled once. `tolerance` is the one table of what is
 //! allowed to differ.
 
-#![expect(
-    clippy::disallowed_methods,
-    reason = "references are computed independently of the crate's own functions"
-)]
-
 mod content;
 mod decisions;
 mod geometry;

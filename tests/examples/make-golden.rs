@@ -1,0 +1,180 @@
+//! Makes the golden templates and vectors of `tests/golden` that are missing.
+//!
+//! `cargo run -p cobra-tests --example make-golden`. A file that is there is never overwritten: the
+//! files record what was released, and training again would hide that something changed.
+//! `tests/tests/golden.rs` says when one may be replaced.
+
+use cobra_infer::{Exponent, Kernel, Template};
+use cobra_tests::golden::{case, decision_name, report_bits, score};
+use cobra_train::demo::mechanical_part;
+use cobra_train::progress::Silent;
+use cobra_train::train::{ReferencePoints, TrainOptions, train};
+use std::error::Error;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Name, exponent, components, training points.
+const TEMPLATES: [(&str, Exponent, usize, usize); 3] = [
+    ("v1-exponent-one", Exponent::One, 4, 200),
+    ("v1-exponent-half", Exponent::Half, 3, 150),
+    ("v1-exponent-free", Exponent::Free, 2, 101),
+];
+
+const CAMERA: [f32; 9] = [900.0, 0.5, 639.5, 0.0, 905.0, 479.5, 0.0, 0.0, 1.0];
+
+/// A turn by 0.6 and 0.8 about the camera's axis: right, off by 6 mm, with the object behind the
+/// camera.
+const POSES: [[f32; 12]; 3] = [
+    [0.6, -0.8, 0., 0.8, 0.6, 0., 0., 0., 1., 10., -20., 500.],
+    [0.6, -0.8, 0., 0.8, 0.6, 0., 0., 0., 1., 14., -24., 502.],
+    [0.6, -0.8, 0., 0.8, 0.6, 0., 0., 0., 1., 10., -20., -500.],
+];
+
+/// Points on the part, whose correspondences come first.
+const ON_PART: usize = 24;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
+    for (name, exponent, components, points) in TEMPLATES {
+        let template = folder.join(name).with_extension("cobra");
+        if !template.exists() {
+            std::fs::write(&template, trained(exponent, components, points)?)?;
+            println!("made {}", template.display());
+        }
+        let vectors = folder.join(name).with_extension("txt");
+        if !vectors.exists() {
+            std::fs::write(&vectors, recorded(&std::fs::read(&template)?)?)?;
+            println!("made {}", vectors.display());
+        }
+    }
+    Ok(())
+}
+
+fn trained(
+    exponent: Exponent,
+    components: usize,
+    points: usize,
+) -> Result<Vec<u8>, Box<dyn Error>> {
+    let mut options = TrainOptions::new("bracket");
+    options.points = points;
+    options.test_points = 2000;
+    options.reference_points = ReferencePoints::KMeans { components };
+    options.fit.kernel = Kernel::RationalQuadratic(exponent);
+    Ok(train(&mechanical_part(), &options, &Silent)?.bytes)
+}
+
+fn recorded(bytes: &[u8]) -> Result<String, Box<dyn Error>> {
+    let template = Template::from_bytes(bytes)?;
+    let mut text = String::from("# The format is that of `cobra_tests::golden`.\n");
+    line(&mut text, "camera", &CAMERA)?;
+    for pose in &POSES {
+        line(&mut text, "pose", pose)?;
+    }
+    let sound = sound_correspondences(&template);
+    for correspondence in sound.iter().chain(&BROKEN) {
+        line(&mut text, "correspondence", correspondence)?;
+    }
+    let counts = [sound.len(), ON_PART, 3, sound.len() + BROKEN.len()];
+    for assignment in ["nearest", "maximum"] {
+        for likelihood in ["peak", "density"] {
+            for (sigma, pose, count) in [
+                (("template", 0.0), 0, counts[0]),
+                (("template", 1.5), 0, counts[1]),
+                (("template", 1.5), 1, counts[1]),
+                (("fixed", 2.5), 1, counts[0]),
+                (("fixed", 1e-3), 1, counts[1]),
+                (("template", 0.0), 2, counts[1]),
+                (("template", 1.5), 0, counts[2]),
+                (("template", 1.5), 0, counts[3]),
+            ] {
+                let (kind, value) = (sigma.0, f32::to_bits(sigma.1));
+                let delta = 2.0_f32.to_bits();
+                let words = format!(
+                    "{assignment} {likelihood} {kind} {value:08x} {delta:08x} 10 {pose} {count}"
+                );
+                let case = case(&mut words.split_ascii_whitespace()).ok_or("case")?;
+                writeln!(text, "case {words}\nlikelihoods{}", {
+                    let mut likelihoods = String::new();
+                    score(&template, &text, &case, |likelihood| {
+                        likelihoods += &format!(" {:08x}", likelihood.to_bits());
+                    })
+                    .ok_or("vectors")?;
+                    likelihoods
+                })?;
+                let report = score(&template, &text, &case, |_| {}).ok_or("vectors")?;
+                let [confidence, threshold, weight_sum, inliers] = report_bits(&report);
+                writeln!(
+                    text,
+                    "report {confidence:08x} {threshold:08x} {weight_sum:08x} {inliers:08x} {} {} {}",
+                    report.points,
+                    report.behind_camera,
+                    decision_name(report.decision)
+                )?;
+            }
+        }
+    }
+    Ok(text)
+}
+
+fn line(text: &mut String, kind: &str, numbers: &[f32]) -> std::fmt::Result {
+    write!(text, "{kind}")?;
+    for number in numbers {
+        write!(text, " {:08x}", number.to_bits())?;
+    }
+    writeln!(text)
+}
+
+/// Pixel, point and weight of what is finite: points that the template predicts, seen at the first
+/// pose, then the awkward ones.
+fn sound_correspondences(template: &Template<'_>) -> Vec<[f32; 6]> {
+    let components: Vec<_> = template.components().collect();
+    let mut all: Vec<[f32; 6]> = (0..ON_PART)
+        .map(|i| {
+            let component = &components[i % components.len()];
+            let (direction, _) = component
+                .terms
+                .iter()
+                .nth(7 * i % component.terms.len())
+                .expect("an index below the length");
+            let u = cobra_infer::gp::UnitDirection::new_unchecked(direction.into());
+            let d = component.posterior_mean(template.kernel(), &u);
+            let [x, y, z] = component.centre;
+            seen(
+                [x + d * u.x, y + d * u.y, z + d * u.z],
+                0.5 + 0.25 * (i % 4) as f32,
+            )
+        })
+        .collect();
+    let [x, y, z] = components[0].centre;
+    all.extend([
+        seen([x, y, z], 1.0),
+        seen([x + 1e-3, y, z], 1.0),
+        seen([1e-42, -1e-42, 0.0], 1.0),
+        seen([3e4, -2e4, 1e5], 0.125),
+        [0.0, 0.0, 0.0, 0.0, -900.0, 1.0],
+        [1e-42, 1e-45, 5.0, 5.0, 5.0, 1e-42],
+        [639.5, 479.5, 1e30, -1e30, 1e25, 0.25],
+        [3e38, 3e38, 1.0, 2.0, 3.0, 0.25],
+        [700.0, 500.0, 20.0, 20.0, 20.0, 0.0],
+    ]);
+    all
+}
+
+const BROKEN: [[f32; 6]; 4] = [
+    [f32::NAN, 480.0, 1.0, 2.0, 3.0, 1.0],
+    [640.0, 480.0, f32::INFINITY, 2.0, 3.0, 1.0],
+    [640.0, 480.0, 1.0, 2.0, 3.0, f32::NEG_INFINITY],
+    [640.0, 480.0, 1.0, 2.0, 3.0, -1.0],
+];
+
+fn seen(point: [f32; 3], weight: f32) -> [f32; 6] {
+    let [fx, skew, cx, _, fy, cy, ..] = CAMERA;
+    let [x, y, z] = point;
+    let [r0, r1, r2, r3, r4, r5, r6, r7, r8, tx, ty, tz] = POSES[0];
+    let depth = r6 * x + r7 * y + r8 * z + tz;
+    let (a, b) = (
+        (r0 * x + r1 * y + r2 * z + tx) / depth,
+        (r3 * x + r4 * y + r5 * z + ty) / depth,
+    );
+    [fx * a + skew * b + cx, fy * b + cy, x, y, z, weight]
+}

@@ -1,0 +1,223 @@
+//! Replays recorded scores against a recorded template, bit by bit.
+//!
+//! Needs `core` and `cobra-infer` alone and stores nothing, so that a test on bare metal can take
+//! this file and `include_bytes!`/`include_str!` what lies in `tests/golden`.
+//!
+//! A file of vectors is text. Numbers are the eight hexadecimal digits of an `f32`'s bits unless
+//! said otherwise; a line that starts with `#` says nothing. In order:
+//!
+//! | line | its words |
+//! |---|---|
+//! | `camera` | K, row-major, 9 numbers |
+//! | `pose` | R, row-major, and t, 12 numbers; any number of such lines |
+//! | `correspondence` | pixel, point, weight, 6 numbers; any number of such lines |
+//! | `case` | assignment, likelihood, `template` or `fixed` with its σ_m or σ, δ, and in decimal: the fewest points, which pose, how many of the correspondences |
+//! | `likelihoods` | one a correspondence of the case before |
+//! | `report` | confidence, threshold, sum of weights, share of inliers, in decimal the points and those behind the camera, and the decision |
+
+use cobra_infer::{
+    Assignment, Camera, Correspondence, Decision, Doubt, Likelihood, Pose, Rejection, Report,
+    Scorer, Settings, Sigma, Template,
+};
+use core::str::SplitAsciiWhitespace;
+use nalgebra::{Point2, Point3};
+
+/// The most components that a golden template has.
+pub const COMPONENTS: usize = 4;
+
+/// Where a replay went wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mismatch {
+    /// The template does not load, or a line does not read.
+    Unreadable {
+        /// The line, from 1; 0 for the template.
+        line: usize,
+    },
+    /// Recorded and computed differ.
+    Differs {
+        /// The line of the record, from 1.
+        line: usize,
+        /// Which number on it, from 0.
+        word: usize,
+        /// What is recorded.
+        expected: u32,
+        /// What was computed.
+        found: u32,
+    },
+}
+
+/// One `case` line.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    settings: Settings,
+    pose: usize,
+    correspondences: usize,
+}
+
+/// Scores every case of `vectors` and compares all bits; the number of cases.
+///
+/// # Errors
+/// [`Mismatch`], the first.
+pub fn replay(template: &[u8], vectors: &str) -> Result<usize, Mismatch> {
+    let template = Template::from_bytes(template).map_err(|_| Mismatch::Unreadable { line: 0 })?;
+    let mut cases = 0;
+    let mut likelihoods = None;
+    let mut current = None;
+    for (index, text) in vectors.lines().enumerate() {
+        let line = index + 1;
+        let unreadable = Mismatch::Unreadable { line };
+        let mut words = text.split_ascii_whitespace();
+        match words.next() {
+            Some("case") => current = Some(case(&mut words).ok_or(unreadable)?),
+            Some("likelihoods") => likelihoods = Some((line, words)),
+            Some("report") => {
+                let case = current.take().ok_or(unreadable)?;
+                let (at, mut recorded) = likelihoods.take().ok_or(unreadable)?;
+                let mut outcome = Ok(());
+                let mut word = 0;
+                let report = score(&template, vectors, &case, |found| {
+                    let expected = recorded.next().and_then(hexadecimal);
+                    let compared = compare(at, word, expected, found.to_bits());
+                    outcome = outcome.and(compared);
+                    word += 1;
+                })
+                .ok_or(unreadable)?;
+                outcome?;
+                if recorded.next().is_some() {
+                    return Err(Mismatch::Unreadable { line: at });
+                }
+                for (word, found) in report_bits(&report).into_iter().enumerate() {
+                    compare(line, word, words.next().and_then(hexadecimal), found)?;
+                }
+                for (word, found) in (4..).zip([report.points, report.behind_camera]) {
+                    let expected = words.next().and_then(|word| word.parse().ok());
+                    compare(line, word, expected, found)?;
+                }
+                if words.next() != Some(decision_name(report.decision)) {
+                    return Err(unreadable);
+                }
+                cases += 1;
+            }
+            _ => {}
+        }
+    }
+    Ok(cases)
+}
+
+fn compare(line: usize, word: usize, expected: Option<u32>, found: u32) -> Result<(), Mismatch> {
+    match expected {
+        None => Err(Mismatch::Unreadable { line }),
+        Some(expected) if expected != found => Err(Mismatch::Differs {
+            line,
+            word,
+            expected,
+            found,
+        }),
+        Some(_) => Ok(()),
+    }
+}
+
+/// Scores the correspondences of `vectors` as `case` says, telling `each` every likelihood; `None`
+/// where `vectors` does not read.
+pub fn score(
+    template: &Template<'_>,
+    vectors: &str,
+    case: &Case,
+    mut each: impl FnMut(f32),
+) -> Option<Report> {
+    let camera = Camera::from_matrix(numbers(lines(vectors, "camera").next()?)?).ok()?;
+    let pose: [f32; 12] = numbers(lines(vectors, "pose").nth(case.pose)?)?;
+    let [r0, r1, r2, r3, r4, r5, r6, r7, r8, tx, ty, tz] = pose;
+    let rotation = [r0, r1, r2, r3, r4, r5, r6, r7, r8];
+    let pose = Pose::from_row_major(rotation, [tx, ty, tz]).ok()?;
+    let mut scorer = Scorer::<COMPONENTS>::new(template, &camera, &pose, &case.settings).ok()?;
+    for words in lines(vectors, "correspondence").take(case.correspondences) {
+        let [u, v, x, y, z, weight] = numbers(words)?;
+        let point = scorer.push(&Correspondence {
+            pixel: Point2::new(u, v),
+            point: Point3::new(x, y, z),
+            weight,
+        });
+        each(point.likelihood);
+    }
+    Some(scorer.finish())
+}
+
+/// The case that the words behind `case` describe.
+#[must_use]
+pub fn case(words: &mut SplitAsciiWhitespace<'_>) -> Option<Case> {
+    let assignment = match words.next()? {
+        "nearest" => Assignment::Nearest,
+        "maximum" => Assignment::Maximum,
+        _ => return None,
+    };
+    let likelihood = match words.next()? {
+        "peak" => Likelihood::Peak,
+        "density" => Likelihood::Density,
+        _ => return None,
+    };
+    let kind = words.next()?;
+    let value = f32::from_bits(hexadecimal(words.next()?)?);
+    let sigma = match kind {
+        "template" => Sigma::Template { noise: value },
+        "fixed" => Sigma::Fixed(value),
+        _ => return None,
+    };
+    Some(Case {
+        settings: Settings {
+            assignment,
+            likelihood,
+            sigma,
+            delta: f32::from_bits(hexadecimal(words.next()?)?),
+            minimum_points: words.next()?.parse().ok()?,
+        },
+        pose: words.next()?.parse().ok()?,
+        correspondences: words.next()?.parse().ok()?,
+    })
+}
+
+/// The bits that a `report` line starts with.
+#[must_use]
+pub fn report_bits(report: &Report) -> [u32; 4] {
+    [
+        report.confidence,
+        report.threshold,
+        report.weight_sum,
+        report.inlier_share,
+    ]
+    .map(f32::to_bits)
+}
+
+/// The word that a `report` line ends with.
+#[must_use]
+pub const fn decision_name(decision: Decision) -> &'static str {
+    match decision {
+        Decision::Accept => "accept",
+        Decision::Reject(Rejection::BelowThreshold) => "below-threshold",
+        Decision::Reject(Rejection::NoSupport) => "no-support",
+        Decision::Reject(Rejection::BehindCamera) => "behind-camera",
+        Decision::Undecided(Doubt::TooFewPoints) => "too-few-points",
+        Decision::Undecided(Doubt::NoWeight) => "no-weight",
+        Decision::Undecided(Doubt::NonFiniteInput) => "non-finite-input",
+        Decision::Undecided(Doubt::NegativeWeight) => "negative-weight",
+    }
+}
+
+fn lines<'a>(vectors: &'a str, kind: &'a str) -> impl Iterator<Item = SplitAsciiWhitespace<'a>> {
+    vectors.lines().filter_map(move |line| {
+        let mut words = line.split_ascii_whitespace();
+        (words.next() == Some(kind)).then_some(words)
+    })
+}
+
+fn hexadecimal(word: &str) -> Option<u32> {
+    u32::from_str_radix(word, 16).ok()
+}
+
+fn numbers<const N: usize>(mut words: SplitAsciiWhitespace<'_>) -> Option<[f32; N]> {
+    let mut numbers = [0.0; N];
+    for number in &mut numbers {
+        *number = f32::from_bits(hexadecimal(words.next()?)?);
+    }
+    words.next().is_none().then_some(numbers)
+}

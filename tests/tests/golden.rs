@@ -1,0 +1,78 @@
+//! Recorded templates still load, and still score the recorded bits.
+//!
+//! When this fails, a template in the field would score differently than it did when it was
+//! accepted. Find the change that did it and take it back, or make it on purpose: bump the format's
+//! version (`docs/FORMAT.md`), keep these files as what the new version must refuse, add new ones
+//! under the new version's name to `make-golden`, and say so in the changelog. Never train these
+//! templates again, and never record their scores again, to make this pass.
+
+use cobra_tests::golden::{Mismatch, replay};
+
+const GOLDEN: [(&[u8], &str); 3] = [
+    (
+        include_bytes!("../golden/v1-exponent-one.cobra"),
+        include_str!("../golden/v1-exponent-one.txt"),
+    ),
+    (
+        include_bytes!("../golden/v1-exponent-half.cobra"),
+        include_str!("../golden/v1-exponent-half.txt"),
+    ),
+    (
+        include_bytes!("../golden/v1-exponent-free.cobra"),
+        include_str!("../golden/v1-exponent-free.txt"),
+    ),
+];
+
+#[test]
+fn recorded_templates_score_the_recorded_bits() {
+    for (template, vectors) in GOLDEN {
+        assert_eq!(replay(template, vectors), Ok(32));
+    }
+}
+
+#[test]
+fn the_records_hold_every_kind_of_decision_that_finite_weights_allow() {
+    let lines = GOLDEN.iter().flat_map(|(_, vectors)| vectors.lines());
+    let reports: Vec<&str> = lines.filter(|line| line.starts_with("report")).collect();
+    for decision in [
+        "accept",
+        "below-threshold",
+        "no-support",
+        "behind-camera",
+        "too-few-points",
+        "non-finite-input",
+    ] {
+        let recorded = reports.iter().any(|report| report.ends_with(decision));
+        assert!(recorded, "{decision}");
+    }
+}
+
+#[test]
+fn every_changed_digit_of_a_record_is_noticed() {
+    let (template, vectors) = GOLDEN[0];
+    let start = vectors.find("\nlikelihoods").unwrap() + 1;
+    let end = start + vectors[start..].find("\ncase").unwrap();
+    for (place, _) in vectors[start..end].match_indices(|c: char| c.is_ascii_digit()) {
+        let mut changed = vectors.as_bytes().to_vec();
+        let digit = &mut changed[start + place];
+        *digit = if *digit == b'0' { b'1' } else { b'0' };
+        let changed = String::from_utf8(changed).unwrap();
+        assert!(matches!(
+            replay(template, &changed),
+            Err(Mismatch::Differs { .. })
+        ));
+    }
+}
+
+#[test]
+fn a_golden_template_that_is_damaged_is_not_scored() {
+    for (template, vectors) in GOLDEN {
+        let mut changed = template.to_vec();
+        let last = changed.len() - 4;
+        changed[last] ^= 1;
+        assert_eq!(
+            replay(&changed, vectors),
+            Err(Mismatch::Unreadable { line: 0 })
+        );
+    }
+}
