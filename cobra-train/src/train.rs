@@ -25,7 +25,7 @@ pub const LARGEST_TEMPLATE: usize = 1024;
 pub const SMALLEST_SIGMA_HAT: f64 = 1e-6;
 
 /// How many k-means results are compared.
-const PLACEMENTS: usize = 32;
+pub const PLACEMENTS: usize = 32;
 
 /// Where the reference points come from.
 #[derive(Clone, Debug, PartialEq)]
