@@ -20,7 +20,7 @@ use rayon::prelude::*;
 pub const LARGEST_TEMPLATE: usize = 1024;
 
 /// How many k-means results are compared.
-const PLACEMENTS: usize = 32;
+pub const PLACEMENTS: usize = 32;
 
 /// Where the reference points come from.
 #[derive(Clone, Debug, PartialEq)]
