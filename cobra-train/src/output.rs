@@ -82,6 +82,11 @@ fn beside(path: &Path, target: &Path) -> Result<tempfile::NamedTempFile, WriteEr
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
+    // Asked first, because tempfile hides what the system says of a missing folder.
+    folder.metadata().map_err(|source| WriteError::Io {
+        path: path.to_owned(),
+        source,
+    })?;
     let mut builder = tempfile::Builder::new();
     builder.prefix(".cobra-").suffix(".tmp");
     #[cfg(unix)]
