@@ -72,11 +72,11 @@ pub mod tolerance;
 mod unit;
 
 pub use camera::{Camera, Correspondence};
-pub use error::{CameraError, EncodeError, PoseError, ScoreError, Section, TemplateError};
+pub use error::{CameraError, PoseError, ScoreError};
 pub use gp::UnitDirection;
 pub use kernel::{Exponent, Kernel, Metric};
 pub use mixture::{Assignment, Likelihood, Mixture, Settings, Sigma};
 pub use pose::Pose;
 pub use score::{Decision, Doubt, Rejection, Report, Scorer, score};
-pub use template::Template;
+pub use template::{EncodeError, Section, Template, TemplateError};
 pub use unit::Unit;

@@ -54,7 +54,7 @@ pub struct Settings {
     pub sigma: Sigma,
     /// The tolerance δ > 0 of Eq. 11, in the template's unit.
     pub delta: f32,
-    /// With fewer points than this the decision is undecided.
+    /// With fewer points of positive weight than this the decision is undecided.
     pub minimum_points: u32,
 }
 

@@ -35,7 +35,7 @@ pub enum Rejection {
 /// Why there is no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
-    /// Fewer points than [`Settings::minimum_points`].
+    /// Fewer points of positive weight than [`Settings::minimum_points`].
     TooFewPoints,
     /// The weights add up to 0, or are below [`f32::MIN_POSITIVE`] on average: their products with
     /// likelihoods would have too few bits left to decide on.
@@ -115,6 +115,7 @@ pub struct Scorer<'t, const COMPONENTS: usize> {
     thresholds: CompensatedSum,
     weights: CompensatedSum,
     points: u32,
+    weighty: u32,
     inliers: u32,
     behind_camera: u32,
     doubt: Option<Doubt>,
@@ -142,6 +143,7 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
             thresholds: CompensatedSum::default(),
             weights: CompensatedSum::default(),
             points: 0,
+            weighty: 0,
             inliers: 0,
             behind_camera: 0,
             doubt: None,
@@ -183,6 +185,9 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
             self.inliers = self.inliers.saturating_add(1);
         }
         let weight = correspondence.weight;
+        if weight > 0.0 {
+            self.weighty = self.weighty.saturating_add(1);
+        }
         self.likelihoods.add(weight * likelihood);
         self.thresholds
             .add(weight * self.mixture.threshold(found.as_ref()));
@@ -220,6 +225,8 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
             Some(Doubt::TooFewPoints)
         } else if no_weight {
             Some(Doubt::NoWeight)
+        } else if self.weighty < self.minimum_points {
+            Some(Doubt::TooFewPoints)
         } else if overflow {
             Some(Doubt::NonFiniteInput)
         } else {

@@ -4,11 +4,11 @@
 //! validated, so that no file is made that a controller would refuse.
 
 use super::Template;
+use super::error::{EncodeError, Section};
 use super::wire::{
     self, ComponentsSection, HEADER_LENGTH, Header, ModelSection, NAME_CAPACITY, ObjectSection,
     RECORD_LENGTH, REQUIRED, SECTION_HEADER_LENGTH, SectionHeader, TermEncoding, TermsSection,
 };
-use crate::error::{EncodeError, Section};
 use crate::gp::{Hyperparameters, UnitDirection};
 use crate::kernel::{Kernel, Metric};
 use crate::unit::Unit;

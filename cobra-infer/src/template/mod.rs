@@ -6,13 +6,14 @@
 //! are needed, so that nothing of a template in flash is copied to RAM.
 
 mod encode;
+mod error;
 mod validate;
 mod wire;
 
 pub use encode::{ComponentSource, TemplateSource, encode, encoded_len};
+pub use error::{EncodeError, Section, TemplateError};
 pub use wire::{HEADER_LENGTH, MAGIC, NAME_CAPACITY, RECORD_LENGTH, VERSION, peek_len};
 
-use crate::error::TemplateError;
 use crate::gp::{self, Hyperparameters, Terms, UnitDirection, Word};
 use crate::kernel::{Kernel, Metric};
 use crate::unit::Unit;

@@ -1,11 +1,11 @@
 //! Everything that is checked before a template is used.
 
 use super::Template;
+use super::error::{Section, TemplateError};
 use super::wire::{
     self, ComponentsSection, HEADER_LENGTH, Header, ModelSection, ObjectSection, RECORD_LENGTH,
     REQUIRED, Record, SECTION_HEADER_LENGTH, SectionHeader, TermsSection,
 };
-use crate::error::{Section, TemplateError};
 use crate::gp::Word;
 use crate::kernel::Kernel;
 use crate::math;

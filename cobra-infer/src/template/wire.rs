@@ -1,7 +1,7 @@
 //! The bytes: header, section headers, records, and the postcard structures of the sections.
 
 use super::Component;
-use crate::error::{Section, TemplateError};
+use super::error::{Section, TemplateError};
 use crate::gp::{Hyperparameters, Terms, Word};
 use crate::kernel::{Kernel, Metric};
 use crate::unit::Unit;

@@ -51,6 +51,16 @@ fn no_point_at_all_is_too_few_whatever_the_minimum() {
 }
 
 #[test]
+fn points_without_weight_do_not_make_up_the_minimum() {
+    let mut points = vec![weighted(0.0); 20];
+    points.extend([at(ON_SURFACE); 9]);
+    let report = undecided(&points, Doubt::TooFewPoints);
+    assert_eq!((report.points, report.weight_sum), (29, 9.0));
+    points.push(at(ON_SURFACE));
+    assert_eq!(decide(&points).decision, Decision::Accept);
+}
+
+#[test]
 fn no_weight_leaves_it_undecided() {
     for weight in [0.0, -0.0] {
         let report = undecided(&[weighted(weight); 10], Doubt::NoWeight);

@@ -20,6 +20,8 @@ fn rotation() -> impl Strategy<Value = Rotation3<f32>> {
 }
 
 proptest! {
+    #![proptest_config(crate::seed::config())]
+
     #[test]
     fn whatever_can_be_orthonormalised_becomes_a_rotation(
         rotation in rotation(),

@@ -84,6 +84,8 @@ fn same_bits(a: &Report, b: &Report) -> bool {
 }
 
 proptest! {
+    #![proptest_config(crate::seed::config())]
+
     #[test]
     fn nothing_is_ever_nan_and_the_peak_confidence_is_between_0_and_1(
         content in content(),

@@ -12,6 +12,7 @@ mod mixture;
 mod posterior_mean;
 mod scene;
 mod sections;
+mod seed;
 mod sphere;
 mod template_mutations;
 mod template_numbers;

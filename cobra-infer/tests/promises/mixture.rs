@@ -39,6 +39,8 @@ fn point() -> impl Strategy<Value = [f32; 3]> {
 }
 
 proptest! {
+    #![proptest_config(crate::seed::config())]
+
     #[test]
     fn the_maximum_is_never_below_the_nearest(content in content(), point in point()) {
         let bytes = content.encode();

@@ -71,6 +71,8 @@ fn any_part() -> impl Strategy<Value = (Exponent, Part)> {
 }
 
 proptest! {
+    #![proptest_config(crate::seed::config())]
+
     #[test]
     fn the_mean_is_that_of_a_plain_sum((exponent, part) in any_part(), u in direction()) {
         let (expected, size) = plain(&part, &u);

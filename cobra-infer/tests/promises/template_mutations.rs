@@ -62,6 +62,8 @@ fn load_and_use(bytes: &[u8]) -> bool {
 }
 
 proptest! {
+    #![proptest_config(crate::seed::config())]
+
     #[test]
     fn random_bytes_never_panic(bytes in vec(any::<u8>(), 0..300)) {
         prop_assert!(!load_and_use(&bytes));

@@ -11,6 +11,8 @@ fn bits<const N: usize>(numbers: [f32; N]) -> [u32; N] {
 }
 
 proptest! {
+    #![proptest_config(crate::seed::config())]
+
     #[test]
     fn what_is_encoded_is_decoded_bit_by_bit(content in content()) {
         let bytes = content.encode();

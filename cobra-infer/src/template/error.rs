@@ -1,0 +1,353 @@
+//! What can be wrong with a template: small `Copy` values that say what was found and, where there
+//! is a choice, what was expected.
+
+use core::fmt;
+
+/// A section of a template, by its tag.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Section {
+    /// Name, unit, bounding sphere, diameter.
+    Object,
+    /// Metric and kernel.
+    Model,
+    /// One record per component.
+    Components,
+    /// Directions and weights.
+    Terms,
+}
+
+impl Section {
+    /// The section's name in the format's document.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Section::Object => "object",
+            Section::Model => "model",
+            Section::Components => "components",
+            Section::Terms => "terms",
+        }
+    }
+}
+
+/// Why bytes are not a template.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TemplateError {
+    /// The bytes end before the header does.
+    HeaderTruncated {
+        /// Bytes in a header.
+        expected: usize,
+        /// Bytes there are.
+        found: usize,
+    },
+    /// The first four bytes are not `CBRA`.
+    Magic {
+        /// The four bytes.
+        found: [u8; 4],
+    },
+    /// The format version is not one that this build reads.
+    Version {
+        /// The version it reads.
+        supported: u16,
+        /// The version in the header.
+        found: u16,
+    },
+    /// The header's reserved bytes are not zero.
+    Reserved {
+        /// Their value.
+        found: u16,
+    },
+    /// The number of bytes is not the length in the header.
+    Length {
+        /// The length in the header.
+        expected: usize,
+        /// Bytes there are.
+        found: usize,
+    },
+    /// The payload is not what was written.
+    Checksum {
+        /// The checksum in the header.
+        expected: u32,
+        /// The checksum of the payload.
+        found: u32,
+    },
+    /// A section's header or body reaches past the end of the payload.
+    SectionTruncated {
+        /// Where the section starts, in bytes from the file's start.
+        offset: usize,
+    },
+    /// A section that must be understood is not known to this build.
+    UnknownSection {
+        /// Its tag.
+        tag: u16,
+    },
+    /// A section's flags have a bit that this version does not define.
+    SectionFlags {
+        /// Its tag.
+        tag: u16,
+        /// The flags.
+        found: u16,
+    },
+    /// A section occurs twice.
+    DuplicateSection {
+        /// Which one.
+        section: Section,
+    },
+    /// A required section is missing.
+    MissingSection {
+        /// Which one.
+        section: Section,
+    },
+    /// A section's body does not decode.
+    MalformedSection {
+        /// Which one.
+        section: Section,
+    },
+    /// A section's body goes on behind its content.
+    TrailingBytes {
+        /// Which one.
+        section: Section,
+        /// How many bytes too many.
+        found: usize,
+    },
+    /// The records' stride is not this version's.
+    RecordLength {
+        /// Bytes in a record.
+        expected: usize,
+        /// The stride in the file.
+        found: usize,
+    },
+    /// An array's byte count is not a multiple of its element's.
+    ArrayLength {
+        /// Which section.
+        section: Section,
+        /// Bytes in an element.
+        element: usize,
+        /// Bytes there are.
+        found: usize,
+    },
+    /// There is no component.
+    NoComponents,
+    /// A component has no term.
+    NoTerms {
+        /// Which component.
+        component: usize,
+    },
+    /// The components' terms do not lie one behind the other, or not inside the terms section.
+    TermRange {
+        /// Which component.
+        component: usize,
+    },
+    /// Terms that belong to no component.
+    UnusedTerms {
+        /// Terms that the components use.
+        expected: usize,
+        /// Terms there are.
+        found: usize,
+    },
+    /// A number of the object section is not finite and positive (the centre: not finite).
+    ObjectNumber {
+        /// Which one.
+        field: &'static str,
+        /// Its value.
+        found: f32,
+    },
+    /// A number of a component is out of its range.
+    ComponentNumber {
+        /// Which component.
+        component: usize,
+        /// Which number.
+        field: &'static str,
+        /// What it must be.
+        expected: &'static str,
+        /// Its value.
+        found: f32,
+    },
+    /// A weight is not finite.
+    Weight {
+        /// Which component.
+        component: usize,
+        /// Which of its terms.
+        term: usize,
+    },
+    /// A direction is not a unit vector within [`crate::tolerance::UNIT_DIRECTION`].
+    Direction {
+        /// Which component.
+        component: usize,
+        /// Which of its terms.
+        term: usize,
+        /// Its squared norm.
+        squared_norm: f32,
+    },
+}
+
+impl fmt::Display for TemplateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use TemplateError as E;
+        match *self {
+            E::HeaderTruncated { expected, found } => write!(
+                f,
+                "a template starts with a header of {expected} bytes, found {found} bytes"
+            ),
+            E::Magic {
+                found: [0xff, 0xff, 0xff, 0xff],
+            } => f.write_str("not a template: expected \"CBRA\", found blank flash (ff ff ff ff)"),
+            E::Magic {
+                found: [a, b, c, d],
+            } => write!(
+                f,
+                "not a template: expected \"CBRA\", found bytes {a:02x} {b:02x} {c:02x} {d:02x}"
+            ),
+            E::Version { supported, found } => write!(
+                f,
+                "template format version {found}, this build reads version {supported}"
+            ),
+            E::Reserved { found } => write!(
+                f,
+                "the header's reserved bytes must be zero, found {found:#06x}"
+            ),
+            E::Length { expected, found } if found < expected => write!(
+                f,
+                "the template is truncated: its header says {expected} bytes, found {found}"
+            ),
+            E::Length { expected, found } => write!(
+                f,
+                "the template's header says {expected} bytes, but there are {found}: {} too many",
+                found.saturating_sub(expected)
+            ),
+            E::Checksum { expected, found } => write!(
+                f,
+                "the template is damaged: checksum {found:08x}, expected {expected:08x}"
+            ),
+            E::SectionTruncated { offset } => write!(
+                f,
+                "the section at byte {offset} reaches past the template's end"
+            ),
+            E::UnknownSection { tag } => write!(
+                f,
+                "section {tag:#06x} is required and this build does not know it"
+            ),
+            E::SectionFlags { tag, found } => write!(
+                f,
+                "section {tag:#06x} has flags {found:#06x} that this build does not know"
+            ),
+            E::DuplicateSection { section } => {
+                write!(f, "the {} section occurs twice", section.name())
+            }
+            E::MissingSection { section } => {
+                write!(f, "the {} section is missing", section.name())
+            }
+            E::MalformedSection { section } => {
+                write!(f, "the {} section does not decode", section.name())
+            }
+            E::TrailingBytes { section, found } => write!(
+                f,
+                "the {} section has {found} bytes behind its content",
+                section.name()
+            ),
+            E::RecordLength { expected, found } => write!(
+                f,
+                "component records have {found} bytes, this build reads {expected}"
+            ),
+            E::ArrayLength {
+                section,
+                element,
+                found,
+            } => write!(
+                f,
+                "the {} section's array has {found} bytes, which is no multiple of {element}",
+                section.name()
+            ),
+            E::NoComponents => f.write_str("the template has no component"),
+            E::NoTerms { component } => write!(f, "component {component} has no term"),
+            E::TermRange { component } => write!(
+                f,
+                "the terms of component {component} do not follow those before it, or are missing"
+            ),
+            E::UnusedTerms { expected, found } => write!(
+                f,
+                "the components use {expected} terms, but the terms section holds {found}"
+            ),
+            E::ObjectNumber { field, found } => {
+                write!(f, "the object's {field} is {found}")
+            }
+            E::ComponentNumber {
+                component,
+                field,
+                expected,
+                found,
+            } => write!(
+                f,
+                "component {component}: {field} must be {expected}, found {found}"
+            ),
+            E::Weight { component, term } => {
+                write!(f, "component {component}: weight {term} is not finite")
+            }
+            E::Direction {
+                component,
+                term,
+                squared_norm,
+            } => write!(
+                f,
+                "component {component}: direction {term} is no unit vector (squared norm \
+                 {squared_norm})"
+            ),
+        }
+    }
+}
+
+/// Why a template could not be written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EncodeError {
+    /// The object's name does not fit.
+    Name {
+        /// Bytes that fit.
+        capacity: usize,
+        /// Bytes there are.
+        found: usize,
+    },
+    /// A component has not as many directions as weights.
+    TermCount {
+        /// Which component.
+        component: usize,
+        /// How many directions.
+        directions: usize,
+        /// How many weights.
+        weights: usize,
+    },
+    /// More than a file of this format can hold.
+    TooLarge,
+    /// The buffer is too small.
+    Buffer {
+        /// Bytes there are.
+        found: usize,
+    },
+    /// What was written would be refused.
+    Invalid(TemplateError),
+}
+
+impl fmt::Display for EncodeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            EncodeError::Name { capacity, found } => write!(
+                f,
+                "the object's name has {found} bytes, at most {capacity} fit"
+            ),
+            EncodeError::TermCount {
+                component,
+                directions,
+                weights,
+            } => write!(
+                f,
+                "component {component} has {directions} directions and {weights} weights"
+            ),
+            EncodeError::TooLarge => f.write_str("a template cannot exceed 4 GiB"),
+            EncodeError::Buffer { found } => {
+                write!(f, "the template does not fit into {found} bytes")
+            }
+            EncodeError::Invalid(error) => write!(f, "the template would be refused: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for TemplateError {}
+impl core::error::Error for EncodeError {}
