@@ -5,7 +5,7 @@
 //! (the trainer's).
 //!
 //! The distance between two directions is the chord ‖u − u′‖ (the alternative that the paper names
-//! below Eq. 4): it has no seam and no pole, and needs no arctangent.
+//! where it introduces the rational quadratic): it has no seam and no pole, and needs no arctangent.
 
 use crate::math::Real;
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ pub enum Metric {
 /// Every kernel has unit variance: the trainer folds the signal variance into the weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Kernel {
-    /// The rational quadratic of Eq. 4, k = (1 + s/(2αl²))^(−α) with s the squared distance.
+    /// The paper's rational quadratic, k = (1 + s/(2αl²))^(−α) with s the squared distance.
     RationalQuadratic(Exponent),
 }
 

@@ -6,8 +6,9 @@
 //! else: no standard library, no allocator, no `unsafe`, no operating system.
 //!
 //! The method is that of "COBRA - COnfidence score Based on shape Regression Analysis for quality
-//! assessment of object pose estimation"; equation numbers in this documentation are the paper's,
-//! in order of appearance.
+//! assessment of object pose estimation". Equations are numbered as they follow each other in its
+//! text, the kernel's own formula left out: 1 and 2 direction and distance, 3 prior, 4 and 5
+//! posterior, 6 to 8 mixture, 9 likelihood with σ̂, 10 confidence, 11 threshold.
 //!
 //! | module | owns |
 //! |---|---|
@@ -72,6 +73,7 @@ mod unit;
 
 pub use camera::{Camera, Correspondence};
 pub use error::{CameraError, EncodeError, PoseError, ScoreError, Section, TemplateError};
+pub use gp::UnitDirection;
 pub use kernel::{Exponent, Kernel, Metric};
 pub use mixture::{Assignment, Likelihood, Mixture, Settings, Sigma};
 pub use pose::Pose;

@@ -276,14 +276,15 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
     }
 }
 
-/// √(σ̂² + σ_m²), never below σ̂ and never infinite, whatever the squares round to.
+/// √(σ̂² + σ_m²) for σ̂ > 0 and σ_m ≥ 0: never below either, never infinite.
 fn combined(sigma_hat: f32, noise: f32) -> f32 {
-    let both = (sigma_hat * sigma_hat + noise * noise).square_root();
-    if !both.is_finite() {
-        f32::MAX
-    } else if both < sigma_hat {
-        sigma_hat
+    let (smaller, larger) = if sigma_hat < noise {
+        (sigma_hat, noise)
     } else {
-        both
-    }
+        (noise, sigma_hat)
+    };
+    // As a ratio, so that no square underflows and the smaller one is never lost to it.
+    let ratio = smaller / larger;
+    let both = larger * (1.0 + ratio * ratio).square_root();
+    if both.is_finite() { both } else { f32::MAX }
 }

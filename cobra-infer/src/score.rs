@@ -37,7 +37,8 @@ pub enum Rejection {
 pub enum Doubt {
     /// Fewer points than [`Settings::minimum_points`].
     TooFewPoints,
-    /// The weights add up to 0.
+    /// The weights add up to 0, or are below [`f32::MIN_POSITIVE`] on average: their products with
+    /// likelihoods would have too few bits left to decide on.
     NoWeight,
     /// A pixel, point or weight was NaN or infinite, or the weights add up to more than an `f32`
     /// holds.
@@ -66,7 +67,7 @@ impl Decision {
             Decision::Reject(Rejection::NoSupport) => "no point lies on the surface",
             Decision::Reject(Rejection::BehindCamera) => "every point lies behind the camera",
             Decision::Undecided(Doubt::TooFewPoints) => "too few points",
-            Decision::Undecided(Doubt::NoWeight) => "the weights add up to zero",
+            Decision::Undecided(Doubt::NoWeight) => "the weights add up to zero or next to nothing",
             Decision::Undecided(Doubt::NonFiniteInput) => "a number in the input is not finite",
             Decision::Undecided(Doubt::NegativeWeight) => "a weight is negative",
         }
@@ -170,11 +171,12 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
         let back =
             self.camera
                 .back_project(&self.pose, &correspondence.pixel, &correspondence.point);
-        let found = if back.depth > 0.0 {
-            self.mixture.evaluate(&back.point)
-        } else {
+        // An overflow makes the depth NaN: that point is nowhere, not behind the camera.
+        let found = if back.depth <= 0.0 {
             self.behind_camera = self.behind_camera.saturating_add(1);
             None
+        } else {
+            self.mixture.evaluate(&back.point)
         };
         let likelihood = found.map_or(0.0, |found| found.likelihood);
         if found.is_some_and(|found| math::abs(found.residual()) <= self.delta) {
@@ -211,18 +213,19 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
             decision: Decision::Accept,
         };
         let overflow = !(weight_sum.is_finite() && confidence.is_finite() && threshold.is_finite());
+        let no_weight = weight_sum < f32::MIN_POSITIVE * self.points.max(1) as f32;
         let doubt = if self.doubt.is_some() {
             self.doubt
         } else if self.points < self.minimum_points.max(1) {
             Some(Doubt::TooFewPoints)
-        } else if weight_sum == 0.0 {
+        } else if no_weight {
             Some(Doubt::NoWeight)
         } else if overflow {
             Some(Doubt::NonFiniteInput)
         } else {
             None
         };
-        if overflow {
+        if overflow || no_weight {
             report.confidence = 0.0;
             report.threshold = 0.0;
             if weight_sum.is_nan() {

@@ -227,3 +227,51 @@ fn summarise(mut magnitudes: Vec<f64>) -> ResidualSummary {
         p95: quantile(0.95),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plane(z: f64) -> Vec<[f64; 3]> {
+        (0..10_000)
+            .map(|i| [f64::from(i % 100) * 0.1, f64::from(i / 100) * 0.1, z])
+            .collect()
+    }
+
+    #[test]
+    fn a_set_reproduces_itself() {
+        // Every coordinate occurs a hundred times and one is constant: k-d trees dislike that.
+        let metrics = shape_metrics(&plane(0.0), &plane(0.0));
+        assert_eq!(metrics.chamfer, 0.0);
+        assert_eq!((metrics.precision, metrics.recall), (100.0, 100.0));
+        assert_eq!(metrics.f_score, 100.0);
+    }
+
+    #[test]
+    fn a_shift_beyond_tau_reproduces_nothing_and_adds_both_squares() {
+        let metrics = shape_metrics(&plane(0.0), &plane(0.02));
+        assert!((metrics.chamfer - 1e3 * 2.0 * 4e-4).abs() < 1e-12);
+        assert_eq!(metrics.f_score, 0.0);
+    }
+
+    #[test]
+    fn half_a_surface_is_precise_and_recalls_half() {
+        let metrics = shape_metrics(&plane(0.0), &plane(0.0)[..5000]);
+        assert_eq!((metrics.precision, metrics.recall), (100.0, 50.0));
+        assert!((metrics.f_score - 200.0 / 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_empty_set_has_the_worst_figures() {
+        let metrics = shape_metrics(&plane(0.0), &[]);
+        assert!(metrics.chamfer.is_infinite());
+        assert_eq!((metrics.recall, metrics.f_score), (0.0, 0.0));
+    }
+
+    #[test]
+    fn the_summary_is_of_magnitudes() {
+        let summary = summarise((1..=100).rev().map(f64::from).collect());
+        assert_eq!((summary.median, summary.p95), (51.0, 96.0));
+        assert!((summary.rms - (338_350.0_f64 / 100.0).sqrt()).abs() < 1e-9);
+    }
+}

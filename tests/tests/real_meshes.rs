@@ -1,43 +1,54 @@
-//! Meshes from many hands: each becomes a template, or one line says why not.
+//! Real meshes from many sources: all of them are read, and sampled on their surface.
 
-use cobra_infer::Template;
-use cobra_tests::{files_below, shared_data};
-use cobra_train::progress::Silent;
-use cobra_train::surface::read_mesh;
-use cobra_train::train::{ReferencePoints, TrainOptions, train};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-fn outcome(path: &Path) -> Result<usize, String> {
-    let mesh = read_mesh(path).map_err(|error| error.to_string())?;
-    let mut options = TrainOptions {
-        points: 1000,
-        test_points: 2000,
-        reference_points: ReferencePoints::KMeans { components: 8 },
-        ..TrainOptions::new("mesh")
+use cobra_tests::data::real_data;
+use cobra_tests::tolerance;
+use cobra_train::random::Purpose;
+use cobra_train::surface::{RayCaster, read_mesh, sample_visible};
+
+fn collect_meshes(folder: &Path, found: &mut Vec<PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return;
     };
-    // Whether it trains is asked, not how well.
-    options.fit.subset = 50;
-    let trained = train(&mesh, &options, &Silent).map_err(|error| error.to_string())?;
-    let template = Template::from_bytes(&trained.bytes).map_err(|error| error.to_string())?;
-    Ok(template.component_count())
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let extension = path.extension().and_then(|e| e.to_str());
+        if path.is_dir() {
+            collect_meshes(&path, found);
+        } else if matches!(extension, Some("ply" | "obj" | "stl")) {
+            found.push(path);
+        }
+    }
 }
 
 #[test]
-fn every_mesh_trains_or_ends_in_one_clear_line() {
-    let Some(data) = shared_data() else { return };
-    let paths = files_below(&data.join("meshes"), &["obj", "ply", "stl"]);
+fn every_mesh_is_read_and_sampled_on_its_surface() {
+    let Some(data) = real_data("reading and sampling every mesh") else {
+        return;
+    };
+    let mut paths = Vec::new();
+    collect_meshes(&data.join("meshes"), &mut paths);
+    collect_meshes(&data.join("screwdriver"), &mut paths);
+    paths.sort();
     assert!(!paths.is_empty());
-    let mut refused = 0;
+    let mut failures = Vec::new();
     for path in &paths {
-        match outcome(path) {
-            Ok(components) => assert_eq!(components, 8, "{}", path.display()),
-            Err(line) => {
-                println!("{}: {line}", path.display());
-                refused += 1;
-                assert_eq!(line.lines().count(), 1, "{line}");
-                assert!(line.len() < 500, "{line}");
-            }
+        match farthest_sample(path) {
+            Ok(farthest) if farthest < tolerance::ON_SURFACE => {}
+            Ok(farthest) => failures.push(format!("{}: {farthest} off", path.display())),
+            Err(error) => failures.push(format!("{}: {error}", path.display())),
         }
     }
-    assert_eq!(refused, 0, "meshes that were trained before");
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// The largest distance from the mesh of 2,000 points sampled on it.
+fn farthest_sample(path: &Path) -> Result<f64, Box<dyn std::error::Error>> {
+    let mesh = read_mesh(path)?;
+    let mesh = mesh.normalised(&mesh.bounding_sphere());
+    let caster = RayCaster::new(&mesh);
+    let points = sample_visible(&mesh, &caster, 2000, 1, Purpose::Training)?;
+    assert_eq!(points.len(), 2000);
+    let distances = points.iter().map(|p| caster.distance(&p.position));
+    Ok(distances.fold(0.0, f64::max))
 }

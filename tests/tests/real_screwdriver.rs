@@ -1,7 +1,8 @@
 //! The paper's industrial case: its decisions on four real poses, its shape metrics.
 
 use cobra_infer::{Assignment, Report, Settings, Sigma, Template, score};
-use cobra_tests::shared_data;
+use cobra_tests::data::real_data;
+use cobra_tests::tolerance;
 use cobra_train::evaluate::evaluate;
 use cobra_train::input::{
     CorrespondenceOptions, Estimate, Weighting, read_camera, read_correspondences, read_estimates,
@@ -109,7 +110,9 @@ fn report(folder: &Path, template: &Template<'_>, estimate: &Estimate) -> Report
 
 #[test]
 fn the_four_real_poses_are_decided_as_the_paper_decides_them() {
-    let Some(data) = shared_data() else { return };
+    let Some(data) = real_data("the paper's decisions on four real poses") else {
+        return;
+    };
     let folder = data.join("screwdriver");
     let mesh = read_mesh(&folder.join("model.ply")).unwrap();
     let caster = RayCaster::new(&mesh);
@@ -120,7 +123,10 @@ fn the_four_real_poses_are_decided_as_the_paper_decides_them() {
         for (image, published, accepted) in PUBLISHED {
             let estimate = estimates.iter().find(|e| e.id == image).unwrap();
             let raw = exact_confidence(&folder, image, &caster, &Raw::of_file(&folder, image));
-            assert!((raw - published).abs() < 0.005, "{image}: {raw}");
+            assert!(
+                (raw - published).abs() < tolerance::PUBLISHED_CONFIDENCE,
+                "{image}: {raw}"
+            );
             let exact = exact_confidence(&folder, image, &caster, &Raw::of_estimate(estimate));
 
             let report = report(&folder, &template, estimate);
@@ -138,7 +144,7 @@ fn the_four_real_poses_are_decided_as_the_paper_decides_them() {
                 "seed {seed}, pose {image}"
             );
             assert!(
-                (confidence - exact).abs() < 0.12,
+                (confidence - exact).abs() < tolerance::EXACT_CONFIDENCE,
                 "seed {seed}, pose {image}"
             );
         }
@@ -147,7 +153,9 @@ fn the_four_real_poses_are_decided_as_the_paper_decides_them() {
 
 #[test]
 fn sixteen_components_reproduce_the_screwdriver() {
-    let Some(data) = shared_data() else { return };
+    let Some(data) = real_data("the screwdriver's shape metrics") else {
+        return;
+    };
     let mesh = read_mesh(&data.join("screwdriver/model.ply")).unwrap();
     let sphere = mesh.bounding_sphere();
     let unit = mesh.normalised(&sphere);

@@ -214,10 +214,13 @@ fn check_components(template: &Template<'_>) -> Result<(), TemplateError> {
             number("the centre", "finite", found, found.is_finite())?;
         }
         let sigma_hat = component.sigma_hat;
-        number("sigma-hat", "positive", sigma_hat, positive(sigma_hat))?;
+        let normal = "positive, finite and no subnormal";
+        number("sigma-hat", normal, sigma_hat, positive(sigma_hat))?;
         let h = &component.hyperparameters;
         let l = h.length_scale;
-        number("the length scale", "positive", l, positive(l * l))?;
+        // The kernel sees only the square, which would hide a sign.
+        let square = "positive, with a square that is finite and no subnormal";
+        number("the length scale", square, l, l > 0.0 && positive(l * l))?;
         let Kernel::RationalQuadratic(exponent) = template.kernel;
         match exponent.fixed() {
             Some(fixed) => number(
@@ -228,9 +231,9 @@ fn check_components(template: &Template<'_>) -> Result<(), TemplateError> {
             )?,
             None => number(
                 "the exponent",
-                "positive",
+                "positive, and 2*exponent*(length scale)^2 finite and no subnormal",
                 h.exponent,
-                positive(h.exponent * l * l),
+                positive(2.0 * h.exponent * l * l),
             )?,
         }
         let m = h.prior_mean;

@@ -154,7 +154,7 @@ pub(crate) struct ScoreArguments {
     pub(crate) correspondences: Vec<PathBuf>,
 
     /// Standard deviation of the residuals in mm, in place of the template's and of --noise
-    #[arg(long, value_name = "MM", value_parser = positive, conflicts_with = "noise")]
+    #[arg(long, value_name = "MM", value_parser = positive)]
     pub(crate) sigma_hat: Option<f32>,
 
     /// Standard deviation of the measurement in mm, added to the template's in quadrature

@@ -4,6 +4,7 @@
 //! mistake of all, and the scorer itself can only answer "reject".
 
 use cobra_infer::{Correspondence, Pose, Template, Unit};
+use nalgebra::Vector3;
 
 /// A guess at what unit numbers are really in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,58 +13,68 @@ pub struct ScaleDoubt {
     pub seems: Option<Unit>,
     /// The unit they are taken to be in.
     pub taken: Unit,
-    /// The size that was found, in the unit they are taken to be in.
+    /// The distance that was found, in the unit they are taken to be in.
     pub found: f32,
-    /// The size that would be plausible at least.
+    /// How far the object reaches from the origin of its frame.
     pub expected: f32,
 }
 
-/// A size this many times smaller or larger than the object is no longer plausible.
-const IMPLAUSIBLE: f32 = 5.0;
+/// Points this many times farther out than the object reaches are not on it.
+const FAR_POINTS: f32 = 5.0;
 
-/// Doubts whether object points are in the template's unit: their extent against the object's.
-///
-/// Measured from the frame's origin, which is the same in every unit; the object's centre is not.
+/// Points that all lie nearer to the origin than this share of the object's reach are not on it.
+const NEAR_POINTS: f32 = 0.01;
+
+/// A translation shorter than this share of the object's reach puts the camera into it.
+const NEAR_POSE: f32 = 0.02;
+
+/// An object this many radii away covers less than a pixel.
+const FAR_POSE: f32 = 1000.0;
+
+/// Doubts whether object points are in the template's unit: how far they lie from the origin
+/// against how far the object reaches.
 #[must_use]
 pub fn doubt_point_scale(
     template: &Template<'_>,
     correspondences: &[Correspondence],
 ) -> Option<ScaleDoubt> {
-    let centre = nalgebra::Vector3::from(template.centre());
-    let mut extents: Vec<f32> = correspondences
+    let mut distances: Vec<f32> = correspondences
         .iter()
         .filter(|c| c.is_finite())
         .map(|c| c.point.coords.norm())
         .collect();
-    extents.sort_by(f32::total_cmp);
+    distances.sort_by(f32::total_cmp);
+    let reach = reach(template);
+    let largest = *distances.last()?;
     // The median, so that a few outliers neither raise nor hide the doubt.
-    let found = *extents.get(extents.len() / 2)?;
-    let largest = template.radius() + centre.norm();
-    let smallest_unit = largest / 100.0;
-    let too_small = extents.last().is_some_and(|most| *most < smallest_unit);
-    (too_small || found > IMPLAUSIBLE * largest).then(|| ScaleDoubt {
-        seems: guess(template.unit(), found, largest),
+    let median = distances[distances.len() / 2];
+    (largest < NEAR_POINTS * reach || median > FAR_POINTS * reach).then(|| ScaleDoubt {
+        seems: guess(template.unit(), median, reach),
         taken: template.unit(),
-        found,
-        expected: template.radius(),
+        found: median,
+        expected: reach,
     })
 }
 
-/// Doubts whether a translation is in the template's unit: a camera inside the object sees nothing.
+/// Doubts whether a translation is in the template's unit: how long it is against how far the
+/// object reaches.
 #[must_use]
 pub fn doubt_pose_scale(template: &Template<'_>, pose: &Pose) -> Option<ScaleDoubt> {
-    let [x, y, z] = template.centre();
-    let seen = pose.to_camera(&nalgebra::Point3::new(x, y, z));
-    let found = seen.coords.norm();
-    let expected = template.radius();
-    let offset = nalgebra::Vector3::new(x, y, z).norm();
-    let far = 1000.0 * expected;
-    (pose.translation().norm() < 0.1 * expected.max(offset) || found > far).then(|| ScaleDoubt {
-        seems: guess(template.unit(), pose.translation().norm(), 4.0 * expected),
+    let found = pose.translation().norm();
+    let reach = reach(template);
+    (found < NEAR_POSE * reach || found > FAR_POSE * reach).then(|| ScaleDoubt {
+        // A camera usually stands a few sizes away.
+        seems: guess(template.unit(), found, 4.0 * reach),
         taken: template.unit(),
-        found: pose.translation().norm(),
-        expected,
+        found,
+        expected: reach,
     })
+}
+
+/// The farthest that a point of the object may lie from the origin of its frame.
+fn reach(template: &Template<'_>) -> f32 {
+    let [x, y, z] = template.centre();
+    Vector3::new(x, y, z).norm() + template.radius()
 }
 
 /// The unit in which `found` would come nearest to `expected`, if it comes near at all.
@@ -84,7 +95,7 @@ impl std::fmt::Display for ScaleDoubt {
         let taken = self.taken.symbol();
         write!(
             f,
-            "a size of {:.4} {taken} where the object's radius is {:.1} {taken}",
+            "{:.4} {taken} where the object reaches {:.4} {taken}",
             self.found, self.expected
         )?;
         if let Some(seems) = self.seems {

@@ -75,3 +75,46 @@ pub fn read_reference_points(path: &Path) -> Result<Vec<Point3<f64>>, ReadRefere
     }
     Ok(points)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Vec<Point3<f64>>, String> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("centres.txt");
+        std::fs::write(&path, text).unwrap();
+        read_reference_points(&path).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn blanks_commas_and_semicolons_separate_alike() {
+        let expected = vec![Point3::new(1., -2.5, 3e1)];
+        for line in [
+            "1 -2.5 3e1",
+            "1,-2.5,3e1",
+            " 1;\t-2.5 ;3e1\r",
+            "# c\n\n1, -2.5 3e1",
+        ] {
+            assert_eq!(read(line).as_ref(), Ok(&expected), "{line:?}");
+        }
+    }
+
+    #[test]
+    fn a_line_that_is_no_point_is_named() {
+        for text in [
+            "1 2 3\n4 5\n",
+            "1 2 3\n4 5 six\n",
+            "1 2 3\n4 5 NaN\n",
+            "1 2 3\n4 5 6 7\n",
+        ] {
+            let error = read(text).unwrap_err();
+            assert!(error.contains("centres.txt: line 2"), "{error}");
+        }
+        assert!(
+            read("# nothing\n")
+                .unwrap_err()
+                .contains("no reference points")
+        );
+    }
+}

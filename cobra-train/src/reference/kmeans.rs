@@ -4,7 +4,7 @@
 //! k-means++: the advantages of careful seeding, 2007 (with the greedy choice among a few draws
 //! that the authors recommend in their section on experiments).
 
-use super::nearest;
+use super::nearest_to_each;
 use crate::random::{Purpose, stream};
 use nalgebra::{Point3, Vector3};
 use rand::{Rng, RngExt};
@@ -123,7 +123,7 @@ fn draw(weights: &[f64], target: f64) -> usize {
 fn lloyd(points: &[Point3<f64>], mut centres: Vec<Point3<f64>>) -> Vec<Point3<f64>> {
     let mut labels = vec![usize::MAX; points.len()];
     for _ in 0..ITERATIONS {
-        let assigned: Vec<(usize, f64)> = points.iter().map(|p| nearest(p, &centres)).collect();
+        let assigned = nearest_to_each(points, &centres);
         let changed = assigned
             .iter()
             .zip(&labels)

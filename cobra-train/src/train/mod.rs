@@ -3,26 +3,21 @@
 //! Owns the order of the steps and the change of scale. Everything is learned in the unit sphere,
 //! as the paper does, and written in the mesh's unit, so that the controller never scales anything.
 
-use crate::evaluate::residuals;
+mod assemble;
+mod sigma_hat;
+
 use crate::gp::{self, FitError, FitOptions, FittedGp, PriorMean};
 use crate::progress::Progress;
 use crate::random::{Purpose, stream};
 use crate::reference::{self, ClusterError};
 use crate::surface::{BoundingSphere, Mesh, RayCaster, SampleError, sample_visible};
-use cobra_infer::gp::{Hyperparameters, UnitDirection};
-use cobra_infer::template::{ComponentSource, TemplateSource, encode, encoded_len};
-use cobra_infer::{
-    EncodeError, Exponent, Kernel, Metric, ScoreError, Template, TemplateError, Unit,
-};
+use assemble::{Frame, ScaledComponent};
+use cobra_infer::{EncodeError, Exponent, Kernel, ScoreError, Template, TemplateError, Unit};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
 /// The most components the host scores with.
 pub const LARGEST_TEMPLATE: usize = 1024;
-
-/// The smallest σ̂, as a share of the bounding sphere's radius: a surface that a Gaussian process
-/// fits perfectly, such as a sphere, would otherwise have none.
-pub const SMALLEST_SIGMA_HAT: f64 = 1e-6;
 
 /// How many k-means results are compared.
 const PLACEMENTS: usize = 32;
@@ -179,7 +174,7 @@ pub fn train(
         diameter: mesh.diameter(),
     };
     let provisional = frame.encode(&scaled, &vec![sphere.radius as f32; scaled.len()])?;
-    let (sigma_hats, test_counts) = measure_sigma_hat(
+    let (sigma_hats, test_counts) = sigma_hat::measure(
         &Template::from_bytes(&provisional)?,
         &test
             .iter()
@@ -299,109 +294,4 @@ fn fit_all(
         .collect::<Result<Vec<_>, _>>();
     progress.finish();
     fitted
-}
-
-/// σ̂_k² is the mean squared residual over the test points that component k speaks for (Eq. 9),
-/// computed by the controller's own code.
-fn measure_sigma_hat(
-    template: &Template<'_>,
-    test: &[Point3<f64>],
-) -> Result<(Vec<f32>, Vec<usize>), ScoreError> {
-    let count = template.component_count();
-    let mut squares = vec![0.0_f64; count];
-    let mut counts = vec![0_usize; count];
-    let matches = residuals(template, cobra_infer::Assignment::Nearest, test)?;
-    for found in matches.iter().flatten() {
-        squares[found.component] += f64::from(found.residual()).powi(2);
-        counts[found.component] += 1;
-    }
-    let total: usize = counts.iter().sum();
-    let pooled = squares.iter().sum::<f64>() / total.max(1) as f64;
-    let least = SMALLEST_SIGMA_HAT * f64::from(template.radius());
-    let sigma_hats = squares
-        .iter()
-        .zip(&counts)
-        .map(|(square, count)| {
-            // A component that no test point falls to has nothing but the whole's to go by.
-            let variance = match count {
-                0 => pooled,
-                _ => square / *count as f64,
-            };
-            variance.sqrt().max(least) as f32
-        })
-        .collect();
-    Ok((sigma_hats, counts))
-}
-
-/// A fitted component in the mesh's unit and in the template's precision.
-struct ScaledComponent {
-    centre: [f32; 3],
-    hyperparameters: Hyperparameters,
-    directions: Vec<UnitDirection>,
-    weights: Vec<f32>,
-}
-
-impl ScaledComponent {
-    fn new(centre: &Point3<f64>, fitted: &FittedGp, sphere: &BoundingSphere) -> Self {
-        let h = &fitted.learned.hyperparameters;
-        Self {
-            centre: sphere.denormalise(centre).cast::<f32>().coords.into(),
-            hyperparameters: Hyperparameters {
-                length_scale: h.length_scale as f32,
-                exponent: h.exponent as f32,
-                prior_mean: (sphere.radius * fitted.prior_mean) as f32,
-            },
-            directions: fitted
-                .directions
-                .iter()
-                .map(|u| UnitDirection::new_unchecked(u.cast::<f32>().into_inner()))
-                .collect(),
-            weights: fitted
-                .weights
-                .iter()
-                .map(|w| (sphere.radius * w) as f32)
-                .collect(),
-        }
-    }
-}
-
-/// What the template says of the object as a whole.
-struct Frame<'a> {
-    options: &'a TrainOptions,
-    sphere: &'a BoundingSphere,
-    diameter: f64,
-}
-
-impl Frame<'_> {
-    fn encode(
-        &self,
-        components: &[ScaledComponent],
-        sigma_hats: &[f32],
-    ) -> Result<Vec<u8>, EncodeError> {
-        let components: Vec<ComponentSource<'_>> = components
-            .iter()
-            .zip(sigma_hats)
-            .map(|(component, sigma_hat)| ComponentSource {
-                centre: component.centre,
-                sigma_hat: *sigma_hat,
-                hyperparameters: component.hyperparameters,
-                directions: &component.directions,
-                weights: &component.weights,
-            })
-            .collect();
-        let source = TemplateSource {
-            name: &self.options.name,
-            unit: self.options.unit,
-            centre: self.sphere.centre.cast::<f32>().coords.into(),
-            radius: self.sphere.radius as f32,
-            diameter: self.diameter as f32,
-            metric: Metric::Chord,
-            kernel: self.options.fit.kernel,
-            components: &components,
-        };
-        let mut bytes = vec![0; encoded_len(&source)];
-        let length = encode(&source, &mut bytes)?;
-        bytes.truncate(length);
-        Ok(bytes)
-    }
 }

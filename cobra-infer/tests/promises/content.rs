@@ -1,0 +1,169 @@
+//! The content of a template, owned, and its encoding: what tests build templates from.
+
+use cobra_infer::gp::{Hyperparameters, UnitDirection};
+use cobra_infer::template::{ComponentSource, TemplateSource, encode, encoded_len};
+use cobra_infer::{EncodeError, Exponent, Kernel, Metric, Unit};
+use nalgebra::Vector3;
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    pub(crate) centre: [f32; 3],
+    pub(crate) sigma_hat: f32,
+    pub(crate) hyperparameters: Hyperparameters,
+    pub(crate) directions: Vec<UnitDirection>,
+    pub(crate) weights: Vec<f32>,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Content {
+    pub(crate) name: String,
+    pub(crate) unit: Unit,
+    pub(crate) centre: [f32; 3],
+    pub(crate) radius: f32,
+    pub(crate) diameter: f32,
+    pub(crate) kernel: Kernel,
+    pub(crate) parts: Vec<Part>,
+}
+
+impl Content {
+    pub(crate) fn try_encode(&self) -> Result<Vec<u8>, EncodeError> {
+        let components: Vec<ComponentSource<'_>> = self
+            .parts
+            .iter()
+            .map(|part| ComponentSource {
+                centre: part.centre,
+                sigma_hat: part.sigma_hat,
+                hyperparameters: part.hyperparameters,
+                directions: &part.directions,
+                weights: &part.weights,
+            })
+            .collect();
+        let source = TemplateSource {
+            name: &self.name,
+            unit: self.unit,
+            centre: self.centre,
+            radius: self.radius,
+            diameter: self.diameter,
+            metric: Metric::Chord,
+            kernel: self.kernel,
+            components: &components,
+        };
+        let mut bytes = vec![0; encoded_len(&source)];
+        let length = encode(&source, &mut bytes)?;
+        bytes.truncate(length);
+        Ok(bytes)
+    }
+
+    pub(crate) fn encode(&self) -> Vec<u8> {
+        self.try_encode().unwrap()
+    }
+
+    /// Two components of three and two terms: small enough to try every bit.
+    pub(crate) fn small() -> Self {
+        let part = |x: f32, count: usize| Part {
+            centre: [x, 0.5, -0.25],
+            sigma_hat: 0.125,
+            hyperparameters: Hyperparameters {
+                length_scale: 0.5,
+                exponent: 1.0,
+                prior_mean: 10.0,
+            },
+            directions: [
+                UnitDirection::new_unchecked(Vector3::x()),
+                UnitDirection::new_unchecked(-Vector3::y()),
+                UnitDirection::new_unchecked(Vector3::z()),
+            ][..count]
+                .to_vec(),
+            weights: [0.5, -0.25, 0.75][..count].to_vec(),
+        };
+        Self {
+            name: "nut".into(),
+            unit: Unit::Millimetre,
+            centre: [0.0; 3],
+            radius: 12.0,
+            diameter: 24.0,
+            kernel: Kernel::RationalQuadratic(Exponent::One),
+            parts: vec![part(-2.0, 3), part(2.0, 2)],
+        }
+    }
+
+    /// A sphere around the origin: no weights, the prior mean says it all, so predictions are exact.
+    pub(crate) fn sphere(radius: f32, sigma_hat: f32) -> Self {
+        let mut content = Self::small();
+        content.radius = radius;
+        content.diameter = 2.0 * radius;
+        content.parts.truncate(1);
+        content.parts[0].centre = [0.0; 3];
+        content.parts[0].sigma_hat = sigma_hat;
+        content.parts[0].hyperparameters.prior_mean = radius;
+        content.parts[0].weights.fill(0.0);
+        content
+    }
+}
+
+pub(crate) fn direction() -> impl Strategy<Value = UnitDirection> {
+    [-1.0_f32..1.0, -1.0_f32..1.0, -1.0_f32..1.0]
+        .prop_filter("too short to normalise", |v| {
+            v.iter().map(|c| c * c).sum::<f32>() > 1e-3
+        })
+        .prop_map(|[x, y, z]| UnitDirection::new_normalize(Vector3::new(x, y, z)))
+}
+
+pub(crate) fn exponent() -> impl Strategy<Value = Exponent> {
+    prop_oneof![
+        Just(Exponent::One),
+        Just(Exponent::Half),
+        Just(Exponent::Free)
+    ]
+}
+
+pub(crate) fn part(exponent: Exponent, terms: usize) -> impl Strategy<Value = Part> {
+    (
+        [-5.0_f32..5.0, -5.0_f32..5.0, -5.0_f32..5.0],
+        0.01_f32..2.0,
+        (0.05_f32..3.0, 0.1_f32..4.0, -1.0_f32..20.0),
+        vec(direction(), terms),
+        vec(-3.0_f32..3.0, terms),
+    )
+        .prop_map(
+            move |(centre, sigma_hat, (l, free, m), directions, weights)| Part {
+                centre,
+                sigma_hat,
+                hyperparameters: Hyperparameters {
+                    length_scale: l,
+                    exponent: exponent.fixed().unwrap_or(free),
+                    prior_mean: m,
+                },
+                directions,
+                weights,
+            },
+        )
+}
+
+/// Any template of up to five components of up to forty terms.
+pub(crate) fn content() -> impl Strategy<Value = Content> {
+    let parts = exponent().prop_flat_map(|exponent| {
+        let part = (1_usize..41).prop_flat_map(move |terms| part(exponent, terms));
+        (Just(exponent), vec(part, 1..6))
+    });
+    (
+        vec(any::<char>(), 0..9),
+        prop::sample::select(&Unit::ALL[..]),
+        [-5.0_f32..5.0, -5.0_f32..5.0, -5.0_f32..5.0],
+        (5.0_f32..20.0, 1.0_f32..40.0),
+        parts,
+    )
+        .prop_map(
+            |(name, unit, centre, (radius, diameter), (exponent, parts))| Content {
+                name: name.into_iter().collect(),
+                unit,
+                centre,
+                radius,
+                diameter,
+                kernel: Kernel::RationalQuadratic(exponent),
+                parts,
+            },
+        )
+}

@@ -1,0 +1,20 @@
+//! What the crate promises, tested from outside: templates that are refused or loaded whole, sums
+//! in the documented order, scores that are never NaN, and decisions with their reasons.
+//!
+//! One binary, so that its helpers are compiled once. `tolerance` is the one table of what is
+//! allowed to differ.
+
+mod content;
+mod decisions;
+mod geometry;
+mod hostile_input;
+mod mixture;
+mod posterior_mean;
+mod scene;
+mod sections;
+mod sphere;
+mod template_mutations;
+mod template_numbers;
+mod template_round_trip;
+mod template_sections;
+mod tolerance;

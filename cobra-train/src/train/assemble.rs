@@ -1,0 +1,82 @@
+//! From fitted components to the bytes of a template: the change of scale and of precision.
+
+use super::TrainOptions;
+use crate::gp::FittedGp;
+use crate::surface::BoundingSphere;
+use cobra_infer::gp::{Hyperparameters, UnitDirection};
+use cobra_infer::template::{ComponentSource, TemplateSource, encode, encoded_len};
+use cobra_infer::{EncodeError, Metric};
+use nalgebra::Point3;
+
+/// A fitted component in the mesh's unit and in the template's precision.
+pub(super) struct ScaledComponent {
+    centre: [f32; 3],
+    hyperparameters: Hyperparameters,
+    directions: Vec<UnitDirection>,
+    weights: Vec<f32>,
+}
+
+impl ScaledComponent {
+    pub(super) fn new(centre: &Point3<f64>, fitted: &FittedGp, sphere: &BoundingSphere) -> Self {
+        let h = &fitted.learned.hyperparameters;
+        Self {
+            centre: sphere.denormalise(centre).cast::<f32>().coords.into(),
+            hyperparameters: Hyperparameters {
+                length_scale: h.length_scale as f32,
+                exponent: h.exponent as f32,
+                prior_mean: (sphere.radius * fitted.prior_mean) as f32,
+            },
+            directions: fitted
+                .directions
+                .iter()
+                .map(|u| UnitDirection::new_unchecked(u.cast::<f32>().into_inner()))
+                .collect(),
+            weights: fitted
+                .weights
+                .iter()
+                .map(|w| (sphere.radius * w) as f32)
+                .collect(),
+        }
+    }
+}
+
+/// What the template says of the object as a whole.
+pub(super) struct Frame<'a> {
+    pub(super) options: &'a TrainOptions,
+    pub(super) sphere: &'a BoundingSphere,
+    pub(super) diameter: f64,
+}
+
+impl Frame<'_> {
+    pub(super) fn encode(
+        &self,
+        components: &[ScaledComponent],
+        sigma_hats: &[f32],
+    ) -> Result<Vec<u8>, EncodeError> {
+        let components: Vec<ComponentSource<'_>> = components
+            .iter()
+            .zip(sigma_hats)
+            .map(|(component, sigma_hat)| ComponentSource {
+                centre: component.centre,
+                sigma_hat: *sigma_hat,
+                hyperparameters: component.hyperparameters,
+                directions: &component.directions,
+                weights: &component.weights,
+            })
+            .collect();
+        let source = TemplateSource {
+            name: &self.options.name,
+            unit: self.options.unit,
+            centre: self.sphere.centre.cast::<f32>().coords.into(),
+            radius: self.sphere.radius as f32,
+            diameter: self.diameter as f32,
+            metric: Metric::Chord,
+            kernel: self.options.fit.kernel,
+            components: &components,
+        };
+        let mut bytes = vec![0; encoded_len(&source)];
+        let length = encode(&source, &mut bytes)?;
+        bytes.truncate(length);
+        Ok(bytes)
+    }
+}

@@ -1,0 +1,45 @@
+//! Meshes from many hands: each becomes a template, or one line says why not.
+
+use cobra_infer::Template;
+use cobra_tests::data::{files_below, real_data};
+use cobra_train::progress::Silent;
+use cobra_train::surface::read_mesh;
+use cobra_train::train::{ReferencePoints, TrainOptions, train};
+use std::path::Path;
+
+fn outcome(path: &Path) -> Result<usize, String> {
+    let mesh = read_mesh(path).map_err(|error| error.to_string())?;
+    let mut options = TrainOptions {
+        points: 1000,
+        test_points: 2000,
+        reference_points: ReferencePoints::KMeans { components: 8 },
+        ..TrainOptions::new("mesh")
+    };
+    // Whether it trains is asked, not how well.
+    options.fit.subset = 50;
+    let trained = train(&mesh, &options, &Silent).map_err(|error| error.to_string())?;
+    let template = Template::from_bytes(&trained.bytes).map_err(|error| error.to_string())?;
+    Ok(template.component_count())
+}
+
+#[test]
+fn every_mesh_trains_or_ends_in_one_clear_line() {
+    let Some(data) = real_data("training every mesh") else {
+        return;
+    };
+    let paths = files_below(&data.join("meshes"), &["obj", "ply", "stl"]);
+    assert!(!paths.is_empty());
+    let mut refused = 0;
+    for path in &paths {
+        match outcome(path) {
+            Ok(components) => assert_eq!(components, 8, "{}", path.display()),
+            Err(line) => {
+                println!("{}: {line}", path.display());
+                refused += 1;
+                assert_eq!(line.lines().count(), 1, "{line}");
+                assert!(line.len() < 500, "{line}");
+            }
+        }
+    }
+    assert_eq!(refused, 0, "meshes that were trained before");
+}

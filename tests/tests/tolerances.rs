@@ -1,0 +1,35 @@
+//! The documented tolerances are the constants.
+
+use cobra_infer::tolerance as applied;
+use cobra_tests::tolerance as asserted;
+
+#[test]
+fn the_table_of_tolerances_quotes_the_constants() {
+    let page = include_str!("../../docs/TOLERANCES.md");
+    let constants = [
+        ("UNIT_DIRECTION", f64::from(applied::UNIT_DIRECTION)),
+        ("ROTATION", f64::from(applied::ROTATION)),
+        ("ORTHONORMALISABLE", f64::from(applied::ORTHONORMALISABLE)),
+        ("NO_DIRECTION", f64::from(applied::NO_DIRECTION)),
+        ("DENSE_MEAN", asserted::DENSE_MEAN),
+        ("DENSE_LIKELIHOOD", asserted::DENSE_LIKELIHOOD),
+        ("FINITE_DIFFERENCE", asserted::FINITE_DIFFERENCE),
+        ("SINGLE_PRECISION_MEAN", asserted::SINGLE_PRECISION_MEAN),
+        ("ON_SURFACE", asserted::ON_SURFACE),
+        ("PUBLISHED_CONFIDENCE", asserted::PUBLISHED_CONFIDENCE),
+        ("EXACT_CONFIDENCE", asserted::EXACT_CONFIDENCE),
+    ];
+    let rows: Vec<(&str, f64)> = page
+        .lines()
+        .filter_map(|line| {
+            let mut cells = line.strip_prefix("| `")?.split('|').map(str::trim);
+            let name = cells.next()?.trim_end_matches('`');
+            Some((name, cells.next()?.parse().ok()?))
+        })
+        .collect();
+    assert_eq!(rows.len(), constants.len(), "{rows:?}");
+    for ((name, value), (row_name, row_value)) in constants.iter().zip(&rows) {
+        assert_eq!(name, row_name);
+        assert!((row_value - value).abs() < 1e-6 * value, "{name}");
+    }
+}
