@@ -44,7 +44,9 @@ impl fmt::Display for CameraError {
         match *self {
             CameraError::NotFinite { row, column } => write!(
                 f,
-                "the camera matrix's entry in row {row}, column {column} is not finite"
+                "the camera matrix's entry in row {}, column {} is not finite",
+                row.saturating_add(1),
+                column.saturating_add(1)
             ),
             CameraError::FocalLength { name, value } => write!(
                 f,

@@ -20,6 +20,9 @@ use serde::Serialize;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+/// A threshold of Eq. 11 below this means δ > 3.2 σ, beyond what a Gaussian residual reaches.
+const LOW_THRESHOLD: f32 = 0.1;
+
 pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(), Failure> {
     let bytes = template_file::read(&arguments.template)?;
     let template = Template::from_bytes(&bytes)
@@ -54,11 +57,15 @@ pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(),
                 estimate.id
             ));
         }
+        if correspondences.is_empty() {
+            terminal.warn(&format!("{}: no row counts", file.display()));
+        }
         warn_of_scale(&template, estimate, &correspondences, file, terminal);
         let report = judge(&template, &camera, estimate, &settings, &correspondences)?;
         scored.push((estimate.id.as_str(), report));
     }
 
+    warn_of_low_thresholds(&settings, &scored, terminal);
     let json = JsonTarget(arguments.json.as_ref());
     json.write(&document(&template, &settings, &scored), terminal)?;
     if !json.replaces_the_table() {
@@ -225,6 +232,22 @@ fn warn_of_scale(
     }
     if let Some(doubt) = doubt_pose_scale(template, &estimate.pose) {
         terminal.warn(&format!("translation of pose {}: {doubt}", estimate.id));
+    }
+}
+
+/// Eq. 11 falls with (σ/δ)²: a tolerance far above σ makes a threshold that any pose reaches.
+fn warn_of_low_thresholds(settings: &Settings, scored: &[(&str, Report)], terminal: &Terminal) {
+    let lowest = scored
+        .iter()
+        .filter(|(_, report)| report.threshold > 0.0)
+        .map(|(_, report)| report.threshold)
+        .fold(f32::INFINITY, f32::min);
+    if settings.likelihood == Likelihood::Peak && lowest < LOW_THRESHOLD {
+        terminal.warn(&format!(
+            "the threshold falls to {lowest:.3}, because the tolerance is far above the residuals' \
+             standard deviation: poses may be accepted that nothing supports; add the \
+             measurement's own with --noise, or lower --delta"
+        ));
     }
 }
 

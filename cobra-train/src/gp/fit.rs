@@ -51,7 +51,9 @@ pub struct FittedGp {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FitError {
     /// No point has a direction.
-    #[error("no training point lies away from the reference point")]
+    #[error(
+        "no training point lies away from the reference point: use fewer components or more points"
+    )]
     NoPoints,
     /// The Gram matrix would not fit.
     #[error(

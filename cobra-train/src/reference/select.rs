@@ -1,8 +1,9 @@
 //! Choosing among several placements of reference points by what they explain.
 //!
 //! k-means knows nothing of directions: its results on one object differ by several points of
-//! F-score, because some fold the surface over in the directions from a centre and others do not. Fitting each component to a few of its points and counting which of the
-//! others lie within the paper's τ of the prediction sees exactly that.
+//! F-score, because some fold the surface over in the directions from a centre and others do not.
+//! Fitting each component to a few of its points and counting which of the others lie within the
+//! paper's τ of the prediction sees exactly that.
 
 use super::assign_nearest;
 use crate::evaluate::TAU;

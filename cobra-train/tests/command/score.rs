@@ -111,10 +111,10 @@ fn every_option_has_its_effect() {
 }
 
 #[test]
-fn sigma_hat_and_noise_exclude_each_other() {
+fn sigma_hat_stands_in_for_the_noise_too() {
     let scene = Scene::trained();
-    let outcome = run(scene.score(&["--sigma-hat", "1", "--noise", "1"]));
-    assert_eq!(outcome.code, Some(2), "{outcome:?}");
+    let alone = poses(&scene, &["--sigma-hat", "1"]);
+    assert_eq!(poses(&scene, &["--sigma-hat", "1", "--noise", "5"]), alone);
 }
 
 #[test]

@@ -24,7 +24,7 @@ fn outcome(path: &Path) -> Result<usize, String> {
 
 #[test]
 fn every_mesh_trains_or_ends_in_one_clear_line() {
-    let Some(data) = real_data("training a template of every mesh") else {
+    let Some(data) = real_data("training every mesh") else {
         return;
     };
     let paths = files_below(&data.join("meshes"), &["obj", "ply", "stl"]);
