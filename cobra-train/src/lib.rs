@@ -1,4 +1,26 @@
-//! Trains, evaluates and applies COBRA shape templates.
+//! Trains, evaluates and applies COBRA shape templates: the host's side of `cobra-infer`.
+//!
+//! From a mesh to a template: [`surface`] reads it and draws points on it, [`mod@reference`] places
+//! reference points, [`gp`] fits a Gaussian process around each, [`mod@train`] puts them together and
+//! hands them to `cobra-infer`'s encoder. [`mod@evaluate`] measures the result with the scorer's own
+//! code. [`input`] reads cameras, poses and correspondences, [`pose`] simulates them, [`demo`] shows
+//! the whole. The command `cobra` is a thin layer over this library.
+//!
+//! # Example
+//! ```no_run
+//! use cobra_train::progress::Silent;
+//! use cobra_train::surface::read_mesh;
+//! use cobra_train::train::{TrainOptions, train};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let mesh = read_mesh("screwdriver.ply".as_ref())?;
+//! let trained = train(&mesh, &TrainOptions::new("screwdriver"), &Silent)?;
+//! cobra_train::output::write_whole("screwdriver.cobra".as_ref(), &trained.bytes)?;
+//! let template = cobra_infer::Template::from_bytes(&trained.bytes)?;
+//! println!("{} components", template.component_count());
+//! # Ok(()) }
+//! ```
+#![forbid(unsafe_code)]
 
 pub mod demo;
 pub mod evaluate;
