@@ -177,7 +177,8 @@ pub(crate) struct ScoreArguments {
     #[arg(long, value_enum, default_value_t = LikelihoodArgument::Peak)]
     pub(crate) likelihood: LikelihoodArgument,
 
-    /// Which component speaks for a point: the nearest, or the one that finds it most probable
+    /// Which component speaks for a point: the nearest, or the one that finds it most probable,
+    /// which also forgives more wrong points
     #[arg(long, value_enum, default_value_t = AssignmentArgument::Nearest)]
     pub(crate) assignment: AssignmentArgument,
 
@@ -198,7 +199,8 @@ pub(crate) struct ScoreArguments {
 #[command(
     after_help = "Chamfer distance (times 1000), precision, recall and F-score (percent, tau = \
                   0.01) are the paper's, in the unit sphere. The component is the one that the \
-                  scorer would use on the test point.\n\nExample:\n  cobra eval part.cobra --mesh \
+                  scorer would use on the test point. In JSON, residual is in the unit sphere and \
+                  residual_mm in millimetres.\n\nExample:\n  cobra eval part.cobra --mesh \
                   part.ply --points-out predicted.ply"
 )]
 pub(crate) struct EvalArguments {
