@@ -36,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_papers_figures_for_the_screwdriver_are_met() {
+    fn equation_11_gives_0_387_for_a_sigma_of_1_93_and_a_tolerance_of_2() {
         let threshold = contribution(Likelihood::Peak, 1.93, 2.0);
         assert!((threshold - 0.387).abs() < 5e-4, "{threshold}");
     }

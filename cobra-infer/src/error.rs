@@ -142,10 +142,16 @@ impl fmt::Display for ScoreError {
                 "the template has {found} components, the scorer has room for {capacity}"
             ),
             ScoreError::Delta { found } => {
-                write!(f, "the tolerance delta must be positive, found {found}")
+                write!(
+                    f,
+                    "the tolerance delta must be finite and at least 1.2e-38, found {found:e}"
+                )
             }
             ScoreError::Sigma { found } => {
-                write!(f, "the fixed sigma must be positive, found {found}")
+                write!(
+                    f,
+                    "the fixed sigma must be finite and at least 1.2e-38, found {found:e}"
+                )
             }
             ScoreError::Noise { found } => {
                 write!(f, "the measurement noise must be at least 0, found {found}")

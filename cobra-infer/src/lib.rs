@@ -30,7 +30,7 @@
 //! let template = Template::from_bytes(flash)?;
 //! let camera = Camera::new(423.9, 423.1, 318.7, 243.0)?;
 //! let pose = Pose::from_row_major([1., 0., 0., 0., 1., 0., 0., 0., 1.], [0., 0., 500.])?;
-//! let settings = Settings::with_delta(2.0);
+//! let settings = Settings::for_template(&template, 2.0); // 2 mm
 //! // 16: the most components that this controller makes room for.
 //! let mut scorer = Scorer::<16>::new(&template, &camera, &pose, &settings)?;
 //! for correspondence in stream {
@@ -57,6 +57,13 @@
 
 #[cfg(test)]
 extern crate std;
+
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
+
+/// The crate of the points, vectors and rotations in this crate's interface.
+pub use nalgebra;
 
 pub mod bound;
 pub mod camera;

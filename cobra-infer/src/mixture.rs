@@ -22,6 +22,9 @@ pub enum Likelihood {
 }
 
 /// Which component speaks for a point.
+///
+/// Nearest is the safer choice: a component that is asked outside its own patch extrapolates, so
+/// the maximum over all of them finds an excuse for more wrong points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Assignment {
     /// The one whose reference point is nearest; the first of equals.
@@ -74,6 +77,12 @@ impl Settings {
             delta,
             minimum_points: Self::MINIMUM_POINTS,
         }
+    }
+
+    /// [`Settings::with_delta`] with the tolerance in millimetres, whatever the template's unit.
+    #[must_use]
+    pub fn for_template(template: &Template<'_>, delta_millimetres: f32) -> Self {
+        Self::with_delta(delta_millimetres / template.unit().millimetres())
     }
 
     fn check(&self) -> Result<(), ScoreError> {

@@ -45,6 +45,8 @@ pub enum Doubt {
     NonFiniteInput,
     /// A weight was negative.
     NegativeWeight,
+    /// The threshold rounds to 0, because δ is immense against σ: any pose would pass.
+    NoThreshold,
 }
 
 impl Decision {
@@ -70,6 +72,9 @@ impl Decision {
             Decision::Undecided(Doubt::NoWeight) => "the weights add up to zero or next to nothing",
             Decision::Undecided(Doubt::NonFiniteInput) => "a number in the input is not finite",
             Decision::Undecided(Doubt::NegativeWeight) => "a weight is negative",
+            Decision::Undecided(Doubt::NoThreshold) => {
+                "the threshold is zero: the tolerance is immense against sigma"
+            }
         }
     }
 }
@@ -77,7 +82,8 @@ impl Decision {
 /// The scorer's answer. None of its numbers is ever NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
-    /// Eq. 10 with weights normalised to sum 1; 0 when undecided for lack of valid input.
+    /// The weighted mean likelihood of the valid points, weights normalised to sum 1 (Eq. 10 as
+    /// printed with the density and the maximum); 0 where the weights vanish or overflow.
     pub confidence: f32,
     /// Eq. 11 with the same weights.
     pub threshold: f32,
@@ -243,6 +249,7 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
             Some(doubt) => Decision::Undecided(doubt),
             None if self.behind_camera == self.points => Decision::Reject(Rejection::BehindCamera),
             None if report.confidence <= 0.0 => Decision::Reject(Rejection::NoSupport),
+            None if report.threshold <= 0.0 => Decision::Undecided(Doubt::NoThreshold),
             None if report.confidence < report.threshold => {
                 Decision::Reject(Rejection::BelowThreshold)
             }

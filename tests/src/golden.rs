@@ -200,6 +200,7 @@ pub const fn decision_name(decision: Decision) -> &'static str {
         Decision::Undecided(Doubt::NoWeight) => "no-weight",
         Decision::Undecided(Doubt::NonFiniteInput) => "non-finite-input",
         Decision::Undecided(Doubt::NegativeWeight) => "negative-weight",
+        Decision::Undecided(Doubt::NoThreshold) => "no-threshold",
     }
 }
 

@@ -61,6 +61,15 @@ fn points_without_weight_do_not_make_up_the_minimum() {
 }
 
 #[test]
+fn a_tolerance_so_large_that_any_pose_would_pass_leaves_it_undecided() {
+    let content = Content::sphere(40.0, 1.0);
+    let settings = Settings::with_delta(1e30);
+    let report = score(&content, &pose(0.0), &settings, &[at(ON_SURFACE); 10]);
+    assert_eq!(report.decision, Decision::Undecided(Doubt::NoThreshold));
+    assert_eq!(report.threshold, 0.0);
+}
+
+#[test]
 fn no_weight_leaves_it_undecided() {
     for weight in [0.0, -0.0] {
         let report = undecided(&[weighted(weight); 10], Doubt::NoWeight);
@@ -207,6 +216,7 @@ fn every_decision_has_a_name_and_a_reason_of_its_own() {
         Decision::Undecided(Doubt::NoWeight),
         Decision::Undecided(Doubt::NonFiniteInput),
         Decision::Undecided(Doubt::NegativeWeight),
+        Decision::Undecided(Doubt::NoThreshold),
     ];
     let mut reasons: Vec<_> = decisions.iter().map(|decision| decision.reason()).collect();
     reasons.sort_unstable();

@@ -103,7 +103,8 @@ pub(crate) struct TrainArguments {
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) components: Option<u32>,
 
-    /// Exponent of the rational quadratic kernel: 1 and 0.5 need no power function on the controller
+    /// Exponent of the rational quadratic kernel; scoring with 0.5 takes about 4 times as long as
+    /// with 1, with a free exponent about 70 times
     #[arg(long, value_name = "ALPHA", value_enum, default_value_t = ExponentArgument::One)]
     pub(crate) exponent: ExponentArgument,
 

@@ -30,6 +30,9 @@ pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(),
     let camera = read_camera(&arguments.camera)?;
     let estimates = read_estimates(&arguments.poses)?;
     let settings = settings(arguments, &template);
+    if arguments.sigma_hat.is_some() && arguments.noise > 0.0 {
+        terminal.warn("--sigma-hat replaces the whole standard deviation: --noise has no effect");
+    }
     let jobs = pair(&estimates, &arguments.correspondences, terminal)?;
     if let Some(path) = outputs::json_file(arguments.json.as_ref()) {
         let mut inputs = vec![
@@ -62,7 +65,7 @@ pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(),
         }
         warn_of_scale(&template, estimate, &correspondences, file, terminal);
         let report = judge(&template, &camera, estimate, &settings, &correspondences)?;
-        scored.push((estimate.id.as_str(), report));
+        scored.push((*estimate, report));
     }
 
     warn_of_low_thresholds(&settings, &scored, terminal);
@@ -102,7 +105,7 @@ fn settings(arguments: &ScoreArguments, template: &Template<'_>) -> Settings {
     let millimetre = 1.0 / template.unit().millimetres();
     let delta = arguments
         .delta
-        .map_or(0.01 * template.diameter(), |delta| delta * millimetre);
+        .unwrap_or(0.01 * template.diameter() / millimetre);
     Settings {
         likelihood: arguments.likelihood.into(),
         assignment: arguments.assignment.into(),
@@ -113,7 +116,7 @@ fn settings(arguments: &ScoreArguments, template: &Template<'_>) -> Settings {
             },
         },
         minimum_points: arguments.min_points,
-        ..Settings::with_delta(delta)
+        ..Settings::for_template(template, delta)
     }
 }
 
@@ -236,10 +239,14 @@ fn warn_of_scale(
 }
 
 /// Eq. 11 falls with (σ/δ)²: a tolerance far above σ makes a threshold that any pose reaches.
-fn warn_of_low_thresholds(settings: &Settings, scored: &[(&str, Report)], terminal: &Terminal) {
+fn warn_of_low_thresholds(
+    settings: &Settings,
+    scored: &[(&Estimate, Report)],
+    terminal: &Terminal,
+) {
     let lowest = scored
         .iter()
-        .filter(|(_, report)| report.threshold > 0.0)
+        .filter(|(_, report)| !matches!(report.decision, Decision::Undecided(_)))
         .map(|(_, report)| report.threshold)
         .fold(f32::INFINITY, f32::min);
     if settings.likelihood == Likelihood::Peak && lowest < LOW_THRESHOLD {
@@ -259,6 +266,10 @@ struct Document<'a> {
     likelihood: &'static str,
     assignment: &'static str,
     delta: f32,
+    /// σ for all components, where `--sigma-hat` gives it.
+    sigma: Option<f32>,
+    /// σ_m, where σ is the template's.
+    noise: Option<f32>,
     poses: Vec<PoseDocument<'a>>,
 }
 
@@ -273,12 +284,14 @@ struct PoseDocument<'a> {
     inlier_share: f32,
     weight_sum: f32,
     behind_camera: u32,
+    /// How far the file's matrix was from a rotation, where it had to be replaced.
+    repaired: Option<f32>,
 }
 
 fn document<'a>(
     template: &'a Template<'_>,
     settings: &Settings,
-    scored: &[(&'a str, Report)],
+    scored: &[(&'a Estimate, Report)],
 ) -> Document<'a> {
     Document {
         schema: 1,
@@ -293,10 +306,18 @@ fn document<'a>(
             Assignment::Maximum => "max",
         },
         delta: settings.delta,
+        sigma: match settings.sigma {
+            Sigma::Fixed(sigma) => Some(sigma),
+            Sigma::Template { .. } => None,
+        },
+        noise: match settings.sigma {
+            Sigma::Fixed(_) => None,
+            Sigma::Template { noise } => Some(noise),
+        },
         poses: scored
             .iter()
-            .map(|(id, report)| PoseDocument {
-                id,
+            .map(|(estimate, report)| PoseDocument {
+                id: &estimate.id,
                 points: report.points,
                 confidence: report.confidence,
                 threshold: report.threshold,
@@ -305,17 +326,18 @@ fn document<'a>(
                 inlier_share: report.inlier_share,
                 weight_sum: report.weight_sum,
                 behind_camera: report.behind_camera,
+                repaired: estimate.repaired,
             })
             .collect(),
     }
 }
 
-fn text(template: &Template<'_>, settings: &Settings, scored: &[(&str, Report)]) -> String {
+fn text(template: &Template<'_>, settings: &Settings, scored: &[(&Estimate, Report)]) -> String {
     let rows: Vec<Vec<String>> = scored
         .iter()
-        .map(|(id, report)| {
+        .map(|(estimate, report)| {
             vec![
-                (*id).to_owned(),
+                estimate.id.clone(),
                 report.points.to_string(),
                 format!("{:.3}", report.confidence),
                 format!("{:.3}", report.threshold),

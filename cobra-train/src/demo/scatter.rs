@@ -85,7 +85,8 @@ pub(super) fn draw(
     let mut taken = Vec::new();
     for (letter_index, &index) in lettered.iter().enumerate() {
         let pose = &poses[index];
-        let spot = free_spot(at(pose), top + px(34), &taken);
+        let floor = chart.backend_coord(&(0.0, -0.04)).1;
+        let spot = free_spot(at(pose), pose.verdict, (top + px(34), floor), &taken);
         let line = vec![at(pose), spot];
         page.draw(&PathElement::new(
             line,
@@ -107,11 +108,20 @@ fn threshold_label(lowest: f64, highest: f64) -> String {
     }
 }
 
-/// Where a letter stands beside its point: below the plot's `ceiling`, and without covering a
-/// letter that is already there.
-fn free_spot((x, y): (i32, i32), ceiling: i32, taken: &[(i32, i32)]) -> (i32, i32) {
-    let near = px(24);
-    let far = px(46);
+/// Where a letter stands beside its point: between the plot's ceiling and floor, without covering
+/// a letter that is already there, and rather on the point's side of the threshold.
+fn free_spot(
+    (x, y): (i32, i32),
+    verdict: Verdict,
+    (ceiling, floor): (i32, i32),
+    taken: &[(i32, i32)],
+) -> (i32, i32) {
+    let away = match verdict {
+        Verdict::Reject => -1,
+        Verdict::Accept | Verdict::Undecided => 1,
+    };
+    let near = px(24) * away;
+    let far = px(46) * away;
     let offsets = [
         (0, -near),
         (0, near),
@@ -122,6 +132,7 @@ fn free_spot((x, y): (i32, i32), ceiling: i32, taken: &[(i32, i32)]) -> (i32, i3
     ];
     let free = |spot: &(i32, i32)| {
         spot.1 - px(14) >= ceiling
+            && spot.1 + px(14) <= floor
             && taken.iter().all(|other| {
                 let (dx, dy) = (spot.0 - other.0, spot.1 - other.1);
                 dx * dx + dy * dy >= px(26) * px(26)
@@ -167,15 +178,15 @@ mod tests {
 
     #[test]
     fn letters_of_close_points_do_not_cover_each_other() {
-        let first = free_spot((500, 500), 0, &[]);
-        let second = free_spot((504, 500), 0, &[first]);
+        let first = free_spot((500, 500), Verdict::Accept, (0, 1000), &[]);
+        let second = free_spot((504, 500), Verdict::Accept, (0, 1000), &[first]);
         let apart = (f64::from(first.0 - second.0)).hypot(f64::from(first.1 - second.1));
         assert!(apart >= f64::from(px(26)));
     }
 
     #[test]
     fn letters_of_high_points_stay_in_the_plot() {
-        let (_, y) = free_spot((500, 110), 100, &[]);
+        let (_, y) = free_spot((500, 110), Verdict::Accept, (100, 1000), &[]);
         assert!(y > 110);
     }
 }

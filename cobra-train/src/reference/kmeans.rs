@@ -10,7 +10,7 @@ use nalgebra::{Point3, Vector3};
 use rand::{Rng, RngExt};
 use rayon::prelude::*;
 
-/// Lloyd's iterations; a few dozen suffice for surfaces.
+/// Lloyd's iterations, a limit that surfaces do not come near.
 const ITERATIONS: usize = 300;
 
 /// Why points could not be clustered.

@@ -13,7 +13,8 @@ pub use select::most_explanatory;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-/// The index of the nearest reference point for each point; the first of equals.
+/// The index of the nearest reference point for each point; the first of equals, and 0 where there
+/// is no reference point.
 #[must_use]
 pub fn assign_nearest(points: &[Point3<f64>], centres: &[Point3<f64>]) -> Vec<usize> {
     points

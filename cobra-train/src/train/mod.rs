@@ -249,6 +249,9 @@ fn place(
 }
 
 fn check_count(found: usize) -> Result<(), TrainError> {
+    if found == 0 {
+        return Err(ClusterError::NoComponents.into());
+    }
     if found > LARGEST_TEMPLATE {
         return Err(TrainError::TooManyComponents { found });
     }
