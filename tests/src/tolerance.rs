@@ -14,6 +14,10 @@ pub const FINITE_DIFFERENCE: f64 = 1e-6;
 /// The template's `f32` posterior mean against the trained process in `f64`, in units of σ̂.
 pub const SINGLE_PRECISION_MEAN: f64 = 0.01;
 
+/// How far the negative log likelihood per point may fall at a step of 5 % from the learned
+/// hyperparameters: where one of them hardly matters, rounding decides.
+pub const LEARNED: f64 = 1e-9;
+
 /// Distance of a sampled point from the mesh, in the unit sphere: a ray's length times rounding.
 pub const ON_SURFACE: f64 = 1e-9;
 

@@ -18,6 +18,7 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("DENSE_LIKELIHOOD", asserted::DENSE_LIKELIHOOD),
         ("FINITE_DIFFERENCE", asserted::FINITE_DIFFERENCE),
         ("SINGLE_PRECISION_MEAN", asserted::SINGLE_PRECISION_MEAN),
+        ("LEARNED", asserted::LEARNED),
         ("ON_SURFACE", asserted::ON_SURFACE),
         ("REAL_CONFIDENCE", asserted::REAL_CONFIDENCE),
         ("EXACT_CONFIDENCE", asserted::EXACT_CONFIDENCE),
@@ -30,6 +31,8 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("QUADRATURE", promised::QUADRATURE),
         ("ORTHONORMAL", promised::ORTHONORMAL),
         ("BACK_PROJECTION", promised::BACK_PROJECTION),
+        ("DISTANCE", promised::DISTANCE),
+        ("TINY_NOISE", promised::TINY_NOISE),
     ];
     let rows: Vec<(&str, f64)> = page
         .lines()

@@ -6,7 +6,7 @@
 
 use crate::content::{Content, content};
 use crate::scene::{COMPONENTS, settings};
-use crate::tolerance::{DENSITY, MAXIMUM_LIKELIHOOD, QUADRATURE};
+use crate::tolerance::{DENSITY, DISTANCE, MAXIMUM_LIKELIHOOD, QUADRATURE, TINY_NOISE};
 use cobra_infer::mixture::Match;
 use cobra_infer::{Assignment, Likelihood, Mixture, ScoreError, Settings, Sigma, Template, bound};
 use nalgebra::Point3;
@@ -66,7 +66,7 @@ proptest! {
         for part in &content.parts {
             let offset = Point3::from(point) - Point3::from(part.centre);
             // The two distances are rounded differently.
-            prop_assert!(found.distance <= offset.norm() * (1.0 + 1e-6));
+            prop_assert!(found.distance <= offset.norm() * (1.0 + DISTANCE as f32));
         }
     }
 
@@ -175,7 +175,7 @@ fn noise_far_below_one_is_not_lost() {
     };
     let mixture = Mixture::<1>::new(&template, &settings).unwrap();
     let expected = bound::contribution(Likelihood::Peak, noise, noise);
-    assert!((mixture.threshold(None) - expected).abs() < 1e-5);
+    assert!((mixture.threshold(None) - expected).abs() < TINY_NOISE as f32);
 }
 
 #[test]

@@ -32,3 +32,9 @@ pub(crate) const ORTHONORMAL: f64 = 16.0 * ROUNDOFF;
 /// A projected point against its back-projection, relative to its distance from the camera: the
 /// twenty-odd roundings of projecting, of the ray, and of two changes of frame.
 pub(crate) const BACK_PROJECTION: f64 = 64.0 * ROUNDOFF;
+
+/// The nearest reference point's distance against every other's, relative: both are rounded.
+pub(crate) const DISTANCE: f64 = 1e-6;
+
+/// The threshold under noise whose square would underflow, against that of the noise alone.
+pub(crate) const TINY_NOISE: f64 = 1e-5;

@@ -6,7 +6,7 @@ use super::report::table;
 use super::terminal::Terminal;
 use cobra_infer::{Decision, Pose, Report, Settings, Template, score};
 use cobra_train::demo::{
-    ScoredPose, SimulatedEstimate, VIEW, draw, encode_png, mechanical_part, simulate,
+    ScoredPose, SimulatedEstimate, VIEW, draw, encode_png, mechanical_part, scorer_camera, simulate,
 };
 use cobra_train::output::write_whole;
 use cobra_train::progress::Progress;
@@ -88,17 +88,10 @@ fn judge(
 ) -> Result<(SimulatedEstimate, Report), Failure> {
     let pose = to_pose(&estimate.pose)
         .map_err(|error| Failure::BadInput(format!("simulated pose: {error}")))?;
-    let camera = cobra_infer::Camera::new(
-        VIEW.fx as f32,
-        VIEW.fy as f32,
-        VIEW.cx as f32,
-        VIEW.cy as f32,
-    )
-    .map_err(|error| Failure::BadInput(error.to_string()))?;
     let settings = Settings::with_delta(0.01 * template.diameter());
     let report = score::<LARGEST_TEMPLATE>(
         template,
-        &camera,
+        &scorer_camera(),
         &pose,
         &settings,
         &estimate.correspondences,

@@ -52,6 +52,13 @@ pub struct SimulatedEstimate {
     pub correspondences: Vec<Correspondence>,
 }
 
+/// [`VIEW`] as the scorer has it.
+#[must_use]
+pub fn scorer_camera() -> cobra_infer::Camera {
+    let [fx, fy, cx, cy] = [VIEW.fx, VIEW.fy, VIEW.cx, VIEW.cy].map(|number| number as f32);
+    cobra_infer::Camera::new(fx, fy, cx, cy).expect("the demonstration's camera is a pinhole")
+}
+
 /// `count` estimates, sorted by error.
 ///
 /// # Errors
@@ -74,13 +81,7 @@ pub fn simulate(
     .map(|point| sphere.denormalise(&point.position))
     .collect();
     let caster = RayCaster::new(mesh);
-    let camera = cobra_infer::Camera::new(
-        VIEW.fx as f32,
-        VIEW.fy as f32,
-        VIEW.cx as f32,
-        VIEW.cy as f32,
-    )
-    .expect("the demonstration's camera is a pinhole");
+    let camera = scorer_camera();
     let last = count.saturating_sub(1).max(1) as f64;
     let mut estimates: Vec<SimulatedEstimate> = (0..count)
         .into_par_iter()
