@@ -9,6 +9,7 @@ mod run;
 mod scene;
 mod score;
 mod score_input;
+mod score_warnings;
 mod template_input;
 mod train;
 mod train_input;
