@@ -1,29 +1,59 @@
-//! The threshold of Eq. 11, which relates a tolerance δ to a confidence.
+//! The threshold, which relates a tolerance δ to a confidence: Eq. 11 and what stands beside it.
 //!
 //! Owns one point's contribution; the weighted sum over points is the scorer's.
 //!
-//! With x = δ²/(2σ²), a point whose component has standard deviation σ contributes
-//! (1 − e^−x)/(2x) under the peak likelihood (never above ½), and that divided by √(2π)σ under the
-//! density, which is Eq. 11 as printed. Eq. 11 bounds the *average* confidence over residuals
-//! spread evenly in ±δ; it does not promise that every pose with all residuals within δ passes.
+//! With x = δ²/(2σ²), a point whose component has standard deviation σ contributes under the peak
+//! likelihood
+//!
+//! | [`Threshold`] | contribution | what it is |
+//! |---|---|---|
+//! | `Paper` | (1 − e^−x)/(2x) | Eq. 11, a lower bound of `Mean`; never above ½ |
+//! | `Mean` | (√π/2)·erf(√x)/√x | the average likelihood over residuals spread evenly in ±δ |
+//! | `Worst` | e^−x | the likelihood of a residual of exactly δ |
+//!
+//! and each of these divided by √(2π)σ under the density, which for `Paper` is Eq. 11 as printed.
+//!
+//! Only `Worst` is a promise about one pose: if every residual is within δ, the confidence reaches
+//! it. `Mean` and `Paper` speak of the average over many poses whose residuals spread evenly in ±δ.
+//! `Paper` lies below `Worst`, and so accepts every pose within δ, only up to δ = 1.585 σ (where
+//! eˣ = 1 + 2x, x = 1.2564); beyond, it rejects poses whose residuals all lie within δ but mostly
+//! near it. `Mean` rejects such poses for every δ.
 
-use crate::math::{self, SQRT_TWO_PI};
+use crate::math::{self, Real, SQRT_TWO_PI};
 use crate::mixture::Likelihood;
+
+/// What the threshold promises of a pose within the tolerance δ.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Threshold {
+    /// Eq. 11: a lower bound of the average confidence of poses whose residuals spread evenly in
+    /// ±δ.
+    #[default]
+    Paper,
+    /// That average itself.
+    Mean,
+    /// The least confidence of a pose all of whose residuals are within δ.
+    Worst,
+}
+
+/// √π/2.
+const HALF_SQRT_PI: f32 = 0.886_226_95;
 
 /// One point's contribution to the threshold: `sigma > 0` and `delta > 0` in the same unit.
 ///
-/// Never NaN; between 0 and ½ for [`Likelihood::Peak`], in 1/length for [`Likelihood::Density`].
+/// Never NaN; between 0 and 1 for [`Likelihood::Peak`] (½ for [`Threshold::Paper`]), in 1/length
+/// for [`Likelihood::Density`].
 #[must_use]
-pub fn contribution(likelihood: Likelihood, sigma: f32, delta: f32) -> f32 {
+pub fn contribution(likelihood: Likelihood, threshold: Threshold, sigma: f32, delta: f32) -> f32 {
     let ratio = delta / sigma;
     let x = 0.5 * ratio * ratio;
-    let peak = if x < f32::MIN_POSITIVE {
+    let peak = match threshold {
         // The limit of (1 − e^−x)/(2x) for x → 0.
-        0.5
-    } else if x.is_finite() {
-        -math::exp_minus_one(-x) / (2.0 * x)
-    } else {
-        0.0
+        Threshold::Paper if x < f32::MIN_POSITIVE => 0.5,
+        Threshold::Paper if x.is_finite() => -math::exp_minus_one(-x) / (2.0 * x),
+        Threshold::Mean if x < f32::MIN_POSITIVE => 1.0,
+        Threshold::Mean if x.is_finite() => mean(x.square_root()),
+        Threshold::Worst => math::exp(-x),
+        Threshold::Paper | Threshold::Mean => 0.0,
     };
     match likelihood {
         Likelihood::Peak => peak,
@@ -31,14 +61,28 @@ pub fn contribution(likelihood: Likelihood, sigma: f32, delta: f32) -> f32 {
     }
 }
 
+/// (√π/2)·erf(y)/y, which rounding may lift above its limit of 1.
+fn mean(y: f32) -> f32 {
+    let mean = HALF_SQRT_PI * math::error_function(y) / y;
+    if mean > 1.0 { 1.0 } else { mean }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const THRESHOLDS: [Threshold; 3] = [Threshold::Paper, Threshold::Mean, Threshold::Worst];
+
+    fn peak(threshold: Threshold, sigma: f32, delta: f32) -> f32 {
+        contribution(Likelihood::Peak, threshold, sigma, delta)
+    }
+
     #[test]
     fn equation_11_gives_0_387_for_a_sigma_of_1_93_and_a_tolerance_of_2() {
-        let threshold = contribution(Likelihood::Peak, 1.93, 2.0);
-        assert!((threshold - 0.387).abs() < 5e-4, "{threshold}");
+        for (threshold, expected) in [(Threshold::Paper, 0.387), (Threshold::Worst, 0.585)] {
+            let found = peak(threshold, 1.93, 2.0);
+            assert!((found - expected).abs() < 5e-4, "{threshold:?}: {found}");
+        }
     }
 
     #[test]
@@ -50,12 +94,37 @@ mod tests {
         let (sigma, delta) = (0.7_f64, 1.3_f64);
         let printed = sigma * (1.0 - (-delta * delta / (2.0 * sigma * sigma)).exp())
             / ((2.0 * core::f64::consts::PI).sqrt() * delta * delta);
-        let ours = contribution(Likelihood::Density, sigma as f32, delta as f32);
+        let ours = contribution(
+            Likelihood::Density,
+            Threshold::Paper,
+            sigma as f32,
+            delta as f32,
+        );
         assert!((f64::from(ours) - printed).abs() < 1e-6 * printed);
     }
 
     #[test]
-    fn no_sigma_and_delta_give_nan_or_more_than_a_half() {
+    fn equation_11_never_exceeds_the_average_and_the_average_lies_above_the_worst_case() {
+        for step in 1..400 {
+            let delta = 0.02 * step as f32;
+            let [paper, mean, worst] = THRESHOLDS.map(|threshold| peak(threshold, 1.0, delta));
+            assert!(paper <= mean && worst <= mean, "{delta}");
+        }
+    }
+
+    #[test]
+    fn equation_11_rejects_poses_within_delta_from_1_585_sigma_on() {
+        for (delta, rejects) in [(0.1, false), (1.584, false), (1.587, true), (6.0, true)] {
+            let (paper, worst) = (
+                peak(Threshold::Paper, 1.0, delta),
+                peak(Threshold::Worst, 1.0, delta),
+            );
+            assert_eq!(paper > worst, rejects, "{delta}: {paper} {worst}");
+        }
+    }
+
+    #[test]
+    fn no_sigma_and_delta_give_nan_or_leave_the_range() {
         let sizes = [
             f32::MIN_POSITIVE,
             1e-30,
@@ -68,12 +137,15 @@ mod tests {
         ];
         for sigma in sizes {
             for delta in sizes {
-                let c = contribution(Likelihood::Peak, sigma, delta);
-                assert!(
-                    (0.0..=0.5).contains(&c),
-                    "sigma {sigma}, delta {delta}: {c}"
-                );
-                assert!(!contribution(Likelihood::Density, sigma, delta).is_nan());
+                for (threshold, most) in THRESHOLDS.into_iter().zip([0.5, 1.0, 1.0]) {
+                    let c = peak(threshold, sigma, delta);
+                    assert!(
+                        (0.0..=most).contains(&c),
+                        "{threshold:?}, sigma {sigma}, delta {delta}: {c}"
+                    );
+                    let density = contribution(Likelihood::Density, threshold, sigma, delta);
+                    assert!(!density.is_nan());
+                }
             }
         }
     }

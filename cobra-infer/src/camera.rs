@@ -142,6 +142,28 @@ impl Camera {
         ))
     }
 
+    /// Puts a pixel with a measured depth back into the object's frame: P̂ = Rᵀ(λK⁻¹p − t).
+    ///
+    /// `depth` is λ, the measurement along the camera's axis (z-depth, as depth images hold it, not
+    /// the distance from the camera's centre), in the template's unit. `None` where it is no finite
+    /// number above 0, as depth images say that nothing was measured, or where the arithmetic
+    /// overflows.
+    #[must_use]
+    pub fn back_project_depth(
+        &self,
+        pose: &Pose,
+        pixel: &Point2<f32>,
+        depth: f32,
+    ) -> Option<Point3<f32>> {
+        if !(depth.is_finite() && depth > 0.0) {
+            return None;
+        }
+        let ray = self.ray(pixel);
+        let seen = Point3::new(depth * ray.x, depth * ray.y, depth * ray.z);
+        let point = pose.to_object(&seen);
+        point.iter().all(|c| c.is_finite()).then_some(point)
+    }
+
     /// Puts a pixel back into the object's frame: the point on the pixel's ray that is closest to
     /// RP + t.
     ///

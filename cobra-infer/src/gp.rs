@@ -2,19 +2,14 @@
 //!
 //! Owns the sum μ(u) = m + Σᵢ wᵢ k(u, uᵢ) (Eq. 5 with w = K⁻¹(d − m) precomputed) and the order in
 //! which it is added, which is part of the template format. Does not own where the arrays lie
-//! ([`crate::template`]).
+//! ([`crate::template`]) or the kernels ([`crate::kernel`]).
 //!
 //! # Order of summation
 //! Term i goes to accumulator i mod 8. Within an accumulator terms are added by rising i, starting
-//! from +0. The mean is m + (((a₀+a₁)+(a₂+a₃)) + ((a₄+a₅)+(a₆+a₇))). A term is
-//! wᵢ·k(s), with s = (Δx² + Δy²) + Δz² from the differences of the direction's coordinates: the
-//! form 2 − 2u·uᵢ cancels where the fit is exact. This is what vector code on the host and scalar
-//! code on a controller both compute.
+//! from +0. The mean is m + (((a₀+a₁)+(a₂+a₃)) + ((a₄+a₅)+(a₆+a₇))). A term is wᵢ·k. This is what
+//! vector code on the host and scalar code on a controller both compute.
 
-use crate::kernel::{
-    Covariance, Exponent, Kernel, RationalQuadraticFree, RationalQuadraticHalf,
-    RationalQuadraticOne,
-};
+use crate::kernel::{Covariance, Model, Visitor};
 use crate::math;
 use nalgebra::{Unit, Vector3};
 
@@ -29,6 +24,8 @@ pub type Word = [u8; 4];
 
 /// The directions and weights of one component: four borrowed arrays of the same length, each a
 /// run of little-endian `f32`, at any alignment.
+///
+/// A direction lies in the coordinates of the template's metric: a unit vector, or (φ, θ, 0).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Terms<'a> {
     x: &'a [Word],
@@ -72,7 +69,7 @@ impl<'a> Terms<'a> {
         [self.x, self.y, self.z, self.weights]
     }
 
-    /// The terms one by one: direction and weight.
+    /// The terms one by one: direction, in the metric's coordinates, and weight.
     pub fn iter(&self) -> impl Iterator<Item = ([f32; 3], f32)> + use<'a> {
         let read = |word: &Word| f32::from_le_bytes(*word);
         self.x
@@ -87,51 +84,57 @@ impl<'a> Terms<'a> {
 /// The hyperparameters of one component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hyperparameters {
-    /// l > 0, in units of the chord.
+    /// l > 0, in units of the metric's coordinates; 1 where the kernel has none.
     pub length_scale: f32,
-    /// α > 0; what the kernel fixes, where it fixes one.
-    pub exponent: f32,
+    /// The kernel's parameter besides: the exponent α of the rational quadratic (what the kernel
+    /// fixes, where it fixes one), the polynomial's offset, the period; 1 where it has none.
+    pub parameter: f32,
     /// The prior mean m, in the template's unit.
     pub prior_mean: f32,
 }
 
 /// The posterior mean in direction `u`, in the template's unit.
 ///
-/// `kernel` says which covariance function; the order of summation is the module's.
+/// The order of summation is the module's. NaN where this build does not contain the model's kernel
+/// or metric, which [`crate::Template::from_bytes`] refuses.
 #[must_use]
 pub fn posterior_mean(
-    kernel: Kernel,
+    model: Model,
     hyperparameters: &Hyperparameters,
     terms: &Terms<'_>,
     u: &UnitDirection,
 ) -> f32 {
-    let l = hyperparameters.length_scale;
-    let sum = match kernel {
-        Kernel::RationalQuadratic(Exponent::One) => {
-            weighted_sum(RationalQuadraticOne::new(l), terms, u)
-        }
-        Kernel::RationalQuadratic(Exponent::Half) => {
-            weighted_sum(RationalQuadraticHalf::new(l), terms, u)
-        }
-        Kernel::RationalQuadratic(Exponent::Free) => weighted_sum(
-            RationalQuadraticFree::new(l, hyperparameters.exponent),
-            terms,
-            u,
-        ),
+    let Some(query) = model.metric.coordinates([u.x, u.y, u.z]) else {
+        return f32::NAN;
     };
-    hyperparameters.prior_mean + sum
+    let sum = model.kernel.visit(
+        hyperparameters.length_scale,
+        hyperparameters.parameter,
+        WeightedSum { terms, query },
+    );
+    sum.map_or(f32::NAN, |sum| hyperparameters.prior_mean + sum)
 }
 
-fn weighted_sum<K: Covariance<f32>>(kernel: K, terms: &Terms<'_>, u: &UnitDirection) -> f32 {
-    let u = [u.x, u.y, u.z];
-    let mut lanes = sum_chunks(kernel, terms, u);
-    let [xs, ys, zs, ws] = terms.arrays().map(|words| words.as_chunks::<LANES>().1);
-    for ((((lane, x), y), z), w) in lanes.iter_mut().zip(xs).zip(ys).zip(zs).zip(ws) {
-        let [x, y, z, w] = [x, y, z, w].map(|word| f32::from_le_bytes(*word));
-        *lane += term(kernel, u, [x, y, z], w);
+/// Σᵢ wᵢ k(query, uᵢ).
+struct WeightedSum<'a> {
+    terms: &'a Terms<'a>,
+    query: [f32; 3],
+}
+
+impl Visitor<f32> for WeightedSum<'_> {
+    type Output = f32;
+
+    fn visit(self, kernel: impl Covariance<f32>) -> f32 {
+        let Self { terms, query } = self;
+        let mut lanes = sum_chunks(kernel, terms, query);
+        let [xs, ys, zs, ws] = terms.arrays().map(|words| words.as_chunks::<LANES>().1);
+        for ((((lane, x), y), z), w) in lanes.iter_mut().zip(xs).zip(ys).zip(zs).zip(ws) {
+            let [x, y, z, w] = [x, y, z, w].map(|word| f32::from_le_bytes(*word));
+            *lane += w * kernel.between(query, [x, y, z]);
+        }
+        let [a0, a1, a2, a3, a4, a5, a6, a7] = lanes;
+        ((a0 + a1) + (a2 + a3)) + ((a4 + a5) + (a6 + a7))
     }
-    let [a0, a1, a2, a3, a4, a5, a6, a7] = lanes;
-    ((a0 + a1) + (a2 + a3)) + ((a4 + a5) + (a6 + a7))
 }
 
 /// The accumulators after the terms that fill whole rounds of them.
@@ -139,22 +142,16 @@ fn weighted_sum<K: Covariance<f32>>(kernel: K, terms: &Terms<'_>, u: &UnitDirect
 /// Out of line on purpose: next to the sum over the accumulators, which adds them in pairs, the
 /// compiler makes vectors of two lanes where four fit, and the loop takes three times as long.
 #[inline(never)]
-fn sum_chunks<K: Covariance<f32>>(kernel: K, terms: &Terms<'_>, u: [f32; 3]) -> [f32; LANES] {
+fn sum_chunks<K: Covariance<f32>>(kernel: K, terms: &Terms<'_>, query: [f32; 3]) -> [f32; LANES] {
     let mut lanes = [0.0; LANES];
     let [xs, ys, zs, ws] = terms.arrays().map(|words| words.as_chunks::<LANES>().0);
     for (((x, y), z), w) in xs.iter().zip(ys).zip(zs).zip(ws) {
         let [x, y, z, w] = [x, y, z, w].map(|chunk| chunk.map(f32::from_le_bytes));
         for ((((lane, x), y), z), w) in lanes.iter_mut().zip(x).zip(y).zip(z).zip(w) {
-            *lane += term(kernel, u, [x, y, z], w);
+            *lane += w * kernel.between(query, [x, y, z]);
         }
     }
     lanes
-}
-
-#[inline(always)]
-fn term<K: Covariance<f32>>(kernel: K, [ux, uy, uz]: [f32; 3], [x, y, z]: [f32; 3], w: f32) -> f32 {
-    let (dx, dy, dz) = (ux - x, uy - y, uz - z);
-    w * kernel.at((dx * dx + dy * dy) + dz * dz)
 }
 
 /// The direction from `origin` to `point` and the distance between them.
@@ -181,26 +178,59 @@ pub fn direction_and_distance(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::{Exponent, Kernel, Metric, Smoothness};
     use crate::math::Real;
+    use core::f32::consts::PI;
     use std::vec::Vec;
 
-    /// The module's documentation, word by word, one term at a time.
+    /// The module's documentation and the format's, word by word, one term at a time.
     fn documented_mean(
-        kernel: impl Fn(f32) -> f32,
-        prior_mean: f32,
+        kernel: Kernel,
+        h: &Hyperparameters,
         terms: &Terms<'_>,
-        u: &UnitDirection,
+        query: [f32; 3],
     ) -> f32 {
         let mut a = [0.0_f32; LANES];
-        for (i, ([x, y, z], w)) in terms.iter().enumerate() {
-            let (dx, dy, dz) = (u.x - x, u.y - y, u.z - z);
-            a[i % LANES] += w * kernel((dx * dx + dy * dy) + dz * dz);
+        for (i, (term, w)) in terms.iter().enumerate() {
+            a[i % LANES] += w * documented_kernel(kernel, h, query, term);
         }
-        prior_mean + (((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])))
+        h.prior_mean + (((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])))
+    }
+
+    fn documented_kernel(kernel: Kernel, h: &Hyperparameters, a: [f32; 3], b: [f32; 3]) -> f32 {
+        let (l, p) = (h.length_scale, h.parameter);
+        let d = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+        let s = (d[0] * d[0] + d[1] * d[1]) + d[2] * d[2];
+        let q = (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+        match kernel {
+            Kernel::RationalQuadratic(Exponent::One) => 1.0 / (1.0 + s * (1.0 / ((2.0 * l) * l))),
+            Kernel::RationalQuadratic(Exponent::Half) => {
+                1.0 / (1.0 + s * (1.0 / (l * l))).square_root()
+            }
+            Kernel::RationalQuadratic(Exponent::Free) => {
+                (1.0 + s * (1.0 / (((2.0 * p) * l) * l))).power(-p)
+            }
+            Kernel::RadialBasis => math::exp(-(s * (1.0 / ((2.0 * l) * l)))),
+            Kernel::Matern(Smoothness::Half) => math::exp(-(s.square_root() * (1.0 / l))),
+            Kernel::Matern(Smoothness::ThreeHalves) => {
+                let z = s.square_root() * (3.0_f32.square_root() / l);
+                (1.0 + z) * math::exp(-z)
+            }
+            Kernel::Matern(Smoothness::FiveHalves) => {
+                let z = s.square_root() * (5.0_f32.square_root() / l);
+                ((1.0 + z) + z * z / 3.0) * math::exp(-z)
+            }
+            Kernel::Linear => q,
+            Kernel::Polynomial => ((q + p) * (q + p)) * (q + p),
+            Kernel::Periodic => {
+                let [x, y, z] = d.map(|d| (d * (PI / p)).sine());
+                math::exp(-(((x * x + y * y) + z * z) * (2.0 / (l * l))))
+            }
+        }
     }
 
     #[test]
-    fn the_mean_has_the_bits_of_the_documented_order_for_every_length() {
+    fn the_mean_has_the_bits_of_the_documented_order_for_every_length_kernel_and_metric() {
         let mut state = 1_u32;
         let mut number = || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -213,29 +243,26 @@ mod tests {
                 .collect();
             let terms = Terms::from_words(&words).unwrap();
             let u = Unit::new_normalize(Vector3::new(number(), number(), number()));
-            let l = 0.3 + 0.2 * number();
             let hyperparameters = Hyperparameters {
-                length_scale: l,
-                exponent: 0.7,
+                length_scale: 0.3 + 0.2 * number(),
+                parameter: 0.7 + 0.2 * number(),
                 prior_mean: 40.0 * number(),
             };
-            let two_exponents = 2.0_f32 * 0.7;
-            let (one, half) = (1.0 / (2.0 * l * l), 1.0 / (l * l));
-            let free = 1.0 / (two_exponents * l * l);
-            let kernels: [(Exponent, &dyn Fn(f32) -> f32); 3] = [
-                (Exponent::One, &|s| 1.0 / (1.0 + s * one)),
-                (Exponent::Half, &|s| 1.0 / (1.0 + s * half).square_root()),
-                (Exponent::Free, &|s| (1.0 + s * free).power(-0.7)),
-            ];
-            for (exponent, kernel) in kernels {
-                let mean = posterior_mean(
-                    Kernel::RationalQuadratic(exponent),
-                    &hyperparameters,
-                    &terms,
-                    &u,
-                );
-                let documented = documented_mean(kernel, hyperparameters.prior_mean, &terms, &u);
-                assert_eq!(mean.to_bits(), documented.to_bits(), "{exponent:?} {count}");
+            for kernel in Kernel::ALL {
+                for metric in Metric::ALL {
+                    let query = match metric {
+                        Metric::Chord => [u.x, u.y, u.z],
+                        Metric::Angles => [
+                            libm::atan2f((u.x * u.x + u.y * u.y).square_root(), u.z),
+                            libm::atan2f(u.y, u.x),
+                            0.0,
+                        ],
+                    };
+                    let model = Model { metric, kernel };
+                    let mean = posterior_mean(model, &hyperparameters, &terms, &u);
+                    let documented = documented_mean(kernel, &hyperparameters, &terms, query);
+                    assert_eq!(mean.to_bits(), documented.to_bits(), "{model:?} {count}");
+                }
             }
         }
     }

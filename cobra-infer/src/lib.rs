@@ -13,13 +13,13 @@
 //! | module | owns |
 //! |---|---|
 //! | [`template`] | the wire format: validation, the zero-copy view, the encoder |
-//! | [`kernel`] | covariance functions |
+//! | [`kernel`] | covariance functions, and which of them a build contains |
 //! | [`gp`] | the posterior mean over borrowed arrays, and its order of summation |
 //! | [`camera`] | pinhole intrinsics and back-projection |
 //! | [`pose`] | rotation and translation, checked |
 //! | [`mixture`] | the likelihood of one object-frame point under a template |
 //! | [`mod@score`] | the streaming scorer, the confidence of Eq. 10, the decision |
-//! | [`bound`] | the threshold of Eq. 11 |
+//! | [`bound`] | the threshold: Eq. 11, the exact average, the worst case |
 //! | [`tolerance`] | every tolerance this crate applies, in one table |
 //! | [`math`] | the only place that knows `libm` |
 //!
@@ -78,10 +78,11 @@ pub mod template;
 pub mod tolerance;
 mod unit;
 
+pub use bound::Threshold;
 pub use camera::{Camera, Correspondence};
 pub use error::{CameraError, PoseError, ScoreError};
 pub use gp::UnitDirection;
-pub use kernel::{Exponent, Kernel, Metric};
+pub use kernel::{Exponent, Kernel, Metric, Model, Smoothness};
 pub use mixture::{Assignment, Likelihood, Mixture, Settings, Sigma};
 pub use pose::Pose;
 pub use score::{Decision, Doubt, Rejection, Report, Scorer, score};

@@ -21,19 +21,37 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
+    /// 0.
+    const ZERO: Self;
     /// 1.
     const ONE: Self;
     /// 2.
     const TWO: Self;
+    /// 3.
+    const THREE: Self;
+    /// 5.
+    const FIVE: Self;
+    /// π, rounded.
+    const PI: Self;
     /// Square root, correctly rounded.
     fn square_root(self) -> Self;
     /// `self` raised to `power`.
     fn power(self, power: Self) -> Self;
+    /// e raised to `self`.
+    fn exponential(self) -> Self;
+    /// Sine, in radians.
+    fn sine(self) -> Self;
+    /// The angle of (x, `self`) from the x axis, in [−π, π].
+    fn arctangent(self, x: Self) -> Self;
 }
 
 impl Real for f32 {
+    const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
     const TWO: Self = 2.0;
+    const THREE: Self = 3.0;
+    const FIVE: Self = 5.0;
+    const PI: Self = core::f32::consts::PI;
     #[inline]
     fn square_root(self) -> Self {
         libm::sqrtf(self)
@@ -42,11 +60,27 @@ impl Real for f32 {
     fn power(self, power: Self) -> Self {
         libm::powf(self, power)
     }
+    #[inline]
+    fn exponential(self) -> Self {
+        libm::expf(self)
+    }
+    #[inline]
+    fn sine(self) -> Self {
+        libm::sinf(self)
+    }
+    #[inline]
+    fn arctangent(self, x: Self) -> Self {
+        libm::atan2f(self, x)
+    }
 }
 
 impl Real for f64 {
+    const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
     const TWO: Self = 2.0;
+    const THREE: Self = 3.0;
+    const FIVE: Self = 5.0;
+    const PI: Self = core::f64::consts::PI;
     #[inline]
     fn square_root(self) -> Self {
         libm::sqrt(self)
@@ -54,6 +88,18 @@ impl Real for f64 {
     #[inline]
     fn power(self, power: Self) -> Self {
         libm::pow(self, power)
+    }
+    #[inline]
+    fn exponential(self) -> Self {
+        libm::exp(self)
+    }
+    #[inline]
+    fn sine(self) -> Self {
+        libm::sin(self)
+    }
+    #[inline]
+    fn arctangent(self, x: Self) -> Self {
+        libm::atan2(self, x)
     }
 }
 
@@ -69,6 +115,13 @@ pub fn exp(x: f32) -> f32 {
 #[must_use]
 pub fn exp_minus_one(x: f32) -> f32 {
     libm::expm1f(x)
+}
+
+/// The error function, (2/√π) ∫₀ˣ e^(−t²) dt.
+#[inline]
+#[must_use]
+pub fn error_function(x: f32) -> f32 {
+    libm::erff(x)
 }
 
 /// Natural logarithm.

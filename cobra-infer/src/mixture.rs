@@ -1,9 +1,13 @@
-//! The likelihood of one object-frame point under a template (Eqs. 8 and 9).
+//! The likelihood of one object-frame point under a template (Eqs. 6 to 9).
 //!
-//! Owns which component speaks for a point and how probable that component finds it. Averaging
-//! over points is the scorer's ([`mod@crate::score`]).
+//! Owns which component speaks for a point, or how much each has to say, and how probable they find
+//! it. Averaging over points is the scorer's ([`mod@crate::score`]).
+//!
+//! Components are near or far by (P − C_k)ᵀQ_k(P − C_k), the exponent of Eq. 8: with the precisions
+//! Q_k that expectation maximisation learned, or with the identity in the object's unit sphere,
+//! as the paper has it for k-means, which makes it the Euclidean distance.
 
-use crate::bound;
+use crate::bound::{self, Threshold};
 use crate::error::ScoreError;
 use crate::gp;
 use crate::math::{self, Real, SQRT_TWO_PI};
@@ -27,10 +31,15 @@ pub enum Likelihood {
 /// the maximum over all of them finds an excuse for more wrong points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Assignment {
-    /// The one whose reference point is nearest; the first of equals.
+    /// The one whose reference point is nearest: that of the largest weight in Eq. 8; the first of
+    /// equals.
     Nearest,
     /// The one that finds the point most probable (Eq. 10); the first of equals.
     Maximum,
+    /// All of them, mixed with the weights of Eq. 8: p(P) = Σ_k π_k q̂_k (Eq. 6). With the identity
+    /// for Q_k the weights hardly differ over an object, so that components which extrapolate
+    /// dilute the one that knows.
+    Soft,
 }
 
 /// The standard deviation σ of a component's residual.
@@ -55,7 +64,9 @@ pub struct Settings {
     pub assignment: Assignment,
     /// Which σ.
     pub sigma: Sigma,
-    /// The tolerance δ > 0 of Eq. 11, in the template's unit.
+    /// What the threshold promises of a pose within δ.
+    pub threshold: Threshold,
+    /// The tolerance δ > 0, in the template's unit.
     pub delta: f32,
     /// With fewer points of positive weight than this the decision is undecided.
     pub minimum_points: u32,
@@ -66,14 +77,15 @@ impl Settings {
     /// ten peak likelihoods has a standard error of about 0.1.
     pub const MINIMUM_POINTS: u32 = 10;
 
-    /// Peak likelihood, nearest component, the template's σ without measurement noise, and the
-    /// tolerance `delta` in the template's unit.
+    /// Peak likelihood, nearest component, the template's σ without measurement noise, Eq. 11, and
+    /// the tolerance `delta` in the template's unit.
     #[must_use]
     pub const fn with_delta(delta: f32) -> Self {
         Self {
             likelihood: Likelihood::Peak,
             assignment: Assignment::Nearest,
             sigma: Sigma::Template { noise: 0.0 },
+            threshold: Threshold::Paper,
             delta,
             minimum_points: Self::MINIMUM_POINTS,
         }
@@ -109,10 +121,11 @@ struct Prepared {
     threshold: f32,
 }
 
-/// What the component that speaks for a point says of it.
+/// What a template says of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Match {
-    /// Which component.
+    /// Which component speaks for it; of a soft assignment, the one with the largest share
+    /// π_k q̂_k of the likelihood.
     pub component: usize,
     /// Distance of the point from the reference point.
     pub distance: f32,
@@ -120,6 +133,9 @@ pub struct Match {
     pub predicted: f32,
     /// The point's likelihood.
     pub likelihood: f32,
+    /// What the point contributes to the threshold; of a soft assignment, the components'
+    /// contributions mixed as their likelihoods are.
+    pub threshold: f32,
 }
 
 impl Match {
@@ -146,6 +162,7 @@ pub struct Mixture<'t, const COMPONENTS: usize> {
     likelihood: Likelihood,
     assignment: Assignment,
     smallest_distance: f32,
+    inverse_squared_radius: f32,
     largest_threshold: f32,
     prepared: Vec<Prepared, COMPONENTS>,
 }
@@ -164,7 +181,12 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
                 Sigma::Fixed(sigma) => sigma,
                 Sigma::Template { noise } => combined(component.sigma_hat, noise),
             };
-            let threshold = bound::contribution(settings.likelihood, sigma, settings.delta);
+            let threshold = bound::contribution(
+                settings.likelihood,
+                settings.threshold,
+                sigma,
+                settings.delta,
+            );
             if threshold > largest_threshold {
                 largest_threshold = threshold;
             }
@@ -184,6 +206,7 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
             likelihood: settings.likelihood,
             assignment: settings.assignment,
             smallest_distance: tolerance::NO_DIRECTION * template.radius(),
+            inverse_squared_radius: 1.0 / template.radius() / template.radius(),
             largest_threshold,
             prepared,
         })
@@ -196,6 +219,7 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
         match self.assignment {
             Assignment::Nearest => self.evaluate_nearest(point),
             Assignment::Maximum => self.evaluate_maximum(point),
+            Assignment::Soft => self.evaluate_soft(point),
         }
     }
 
@@ -203,19 +227,13 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
     /// so that points that nothing explains never make a pose easier to accept.
     #[must_use]
     pub fn threshold(&self, found: Option<&Match>) -> f32 {
-        let own = found.and_then(|found| self.prepared.get(found.component));
-        match own {
-            Some(prepared) => prepared.threshold,
-            None => self.largest_threshold,
-        }
+        found.map_or(self.largest_threshold, |found| found.threshold)
     }
 
     fn evaluate_nearest(&self, point: &Point3<f32>) -> Option<Match> {
         let mut nearest: Option<(f32, usize, Component<'t>)> = None;
         for (index, component) in self.template.components().enumerate() {
-            let [x, y, z] = component.centre;
-            let offset = [point.x - x, point.y - y, point.z - z];
-            let squared = math::dot(offset, offset);
+            let squared = squared_reach(&component, point);
             if nearest.as_ref().is_none_or(|(best, ..)| squared < *best) {
                 nearest = Some((squared, index, component));
             }
@@ -236,16 +254,89 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
             let Some(prediction) = self.predict(&component, prepared, point) else {
                 continue;
             };
-            let cost = match self.likelihood {
-                Likelihood::Peak => prediction.half_square,
-                Likelihood::Density => prediction.half_square + prepared.log_sigma,
-            };
+            let cost = self.cost(&prediction, prepared);
             if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
                 best = Some((cost, index, prediction));
             }
         }
         let (_, index, prediction) = best?;
         Some(self.matched(index, &prediction, self.prepared.get(index)?))
+    }
+
+    /// Eqs. 6 to 8. The exponent of the nearest component is taken from all of them, which cancels
+    /// in the quotient and keeps it from being 0/0. Components whose weight rounds to 0 are not
+    /// asked.
+    fn evaluate_soft(&self, point: &Point3<f32>) -> Option<Match> {
+        let least = self
+            .template
+            .components()
+            .map(|component| self.exponent(&component, point))
+            .fold(
+                f32::INFINITY,
+                |least, next| if next < least { next } else { least },
+            );
+        if !least.is_finite() {
+            return None;
+        }
+        let (mut weights, mut likelihoods, mut thresholds) = (0.0, 0.0, 0.0);
+        let mut best: Option<(f32, usize, Prediction)> = None;
+        for (index, (component, prepared)) in
+            self.template.components().zip(&self.prepared).enumerate()
+        {
+            let excess = self.exponent(&component, point) - least;
+            let weight = math::exp(-excess);
+            if weight.is_nan() || weight <= 0.0 {
+                continue;
+            }
+            weights += weight;
+            thresholds += weight * prepared.threshold;
+            let Some(prediction) = self.predict(&component, prepared, point) else {
+                continue;
+            };
+            likelihoods += self.scaled(math::exp(-(excess + prediction.half_square)), prepared);
+            let cost = excess + self.cost(&prediction, prepared);
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                best = Some((cost, index, prediction));
+            }
+        }
+        let (_, component, prediction) = best?;
+        let likelihood = likelihoods / weights;
+        Some(Match {
+            component,
+            distance: prediction.distance,
+            predicted: prediction.predicted,
+            likelihood: match self.likelihood {
+                // Two rounded sums may differ by an ulp where every likelihood is 1.
+                Likelihood::Peak if likelihood > 1.0 => 1.0,
+                _ => likelihood,
+            },
+            threshold: thresholds / weights,
+        })
+    }
+
+    /// (P − C_k)ᵀQ_k(P − C_k), a pure number.
+    fn exponent(&self, component: &Component<'t>, point: &Point3<f32>) -> f32 {
+        let squared = squared_reach(component, point);
+        match component.precision {
+            Some(_) => squared,
+            None => squared * self.inverse_squared_radius,
+        }
+    }
+
+    /// e²/2σ², plus ln σ for the density: the less, the more probable.
+    fn cost(&self, prediction: &Prediction, prepared: &Prepared) -> f32 {
+        match self.likelihood {
+            Likelihood::Peak => prediction.half_square,
+            Likelihood::Density => prediction.half_square + prepared.log_sigma,
+        }
+    }
+
+    /// A peak likelihood as the likelihood that was asked for.
+    fn scaled(&self, peak: f32, prepared: &Prepared) -> f32 {
+        match self.likelihood {
+            Likelihood::Peak => peak,
+            Likelihood::Density => peak * prepared.inverse_sigma / SQRT_TWO_PI,
+        }
     }
 
     fn predict(
@@ -259,7 +350,7 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
             component.centre,
             self.smallest_distance,
         )?;
-        let predicted = component.posterior_mean(self.template.kernel(), &direction);
+        let predicted = component.posterior_mean(self.template.model(), &direction);
         if !predicted.is_finite() {
             return None;
         }
@@ -272,16 +363,24 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
     }
 
     fn matched(&self, component: usize, prediction: &Prediction, prepared: &Prepared) -> Match {
-        let peak = math::exp(-prediction.half_square);
         Match {
             component,
             distance: prediction.distance,
             predicted: prediction.predicted,
-            likelihood: match self.likelihood {
-                Likelihood::Peak => peak,
-                Likelihood::Density => peak * prepared.inverse_sigma / SQRT_TWO_PI,
-            },
+            likelihood: self.scaled(math::exp(-prediction.half_square), prepared),
+            threshold: prepared.threshold,
         }
+    }
+}
+
+/// How far a point is from a reference point: (P − C)ᵀQ(P − C), or ‖P − C‖² where the template has
+/// no Q. All components of a template have one or none has.
+fn squared_reach(component: &Component<'_>, point: &Point3<f32>) -> f32 {
+    let [x, y, z] = component.centre;
+    let offset = [point.x - x, point.y - y, point.z - z];
+    match component.precision {
+        Some(precision) => precision.form(offset),
+        None => math::dot(offset, offset),
     }
 }
 

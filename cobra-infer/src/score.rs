@@ -1,4 +1,4 @@
-//! The confidence of a pose (Eq. 10), its threshold (Eq. 11) and the decision.
+//! The confidence of a pose (Eq. 10), its threshold ([`crate::bound`]) and the decision.
 //!
 //! Owns the weighted mean over correspondences: a streaming scorer, so that a watchdog can be fed
 //! between points, and a batch call that is the same scorer in a loop and so gives the same bits.
@@ -85,7 +85,7 @@ pub struct Report {
     /// The weighted mean likelihood of the valid points, weights normalised to sum 1 (Eq. 10 as
     /// printed with the density and the maximum); 0 where the weights vanish or overflow.
     pub confidence: f32,
-    /// Eq. 11 with the same weights.
+    /// The threshold that the settings ask for, Eq. 11 by default, with the same weights.
     pub threshold: f32,
     /// How many correspondences were pushed.
     pub points: u32,

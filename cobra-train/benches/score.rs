@@ -126,7 +126,7 @@ fn templates(mesh: &Mesh, size: &Size) -> Vec<Vec<u8>> {
     let mut options = size.train_options();
     let mut templates = Vec::new();
     for (_, exponent) in EXPONENTS {
-        options.fit.kernel = Kernel::RationalQuadratic(exponent);
+        options.fit.model.kernel = Kernel::RationalQuadratic(exponent);
         let trained = train(mesh, &options, &Silent).expect("both objects can be trained");
         if templates.is_empty() {
             options = with_reference_points_of(&trained.bytes, options);

@@ -59,7 +59,7 @@ fn trained(
     options.points = points;
     options.test_points = 2000;
     options.reference_points = ReferencePoints::KMeans { components };
-    options.fit.kernel = Kernel::RationalQuadratic(exponent);
+    options.fit.model.kernel = Kernel::RationalQuadratic(exponent);
     Ok(train(&mechanical_part(), &options, &Silent)?.bytes)
 }
 
@@ -137,7 +137,7 @@ fn sound_correspondences(template: &Template<'_>) -> Vec<[f32; 6]> {
                 .nth(7 * i % component.terms.len())
                 .expect("an index below the length");
             let u = cobra_infer::gp::UnitDirection::new_unchecked(direction.into());
-            let d = component.posterior_mean(template.kernel(), &u);
+            let d = component.posterior_mean(template.model(), &u);
             let [x, y, z] = component.centre;
             seen(
                 [x + d * u.x, y + d * u.y, z + d * u.z],

@@ -11,13 +11,13 @@
 //! | `camera` | K, row-major, 9 numbers |
 //! | `pose` | R, row-major, and t, 12 numbers; any number of such lines |
 //! | `correspondence` | pixel, point, weight, 6 numbers; any number of such lines |
-//! | `case` | assignment, likelihood, `template` or `fixed` with its σ_m or σ, δ, and in decimal: the fewest points, which pose, how many of the correspondences |
+//! | `case` | assignment, likelihood, `template` or `fixed` with its σ_m or σ, δ, in decimal the fewest points, which pose, how many of the correspondences, and the threshold unless it is `paper` |
 //! | `likelihoods` | one a correspondence of the case before |
 //! | `report` | confidence, threshold, sum of weights, share of inliers, in decimal the points and those behind the camera, and the decision |
 
 use cobra_infer::{
     Assignment, Camera, Correspondence, Decision, Doubt, Likelihood, Pose, Rejection, Report,
-    Scorer, Settings, Sigma, Template,
+    Scorer, Settings, Sigma, Template, Threshold,
 };
 use core::str::SplitAsciiWhitespace;
 use nalgebra::{Point2, Point3};
@@ -149,6 +149,7 @@ pub fn case(words: &mut SplitAsciiWhitespace<'_>) -> Option<Case> {
     let assignment = match words.next()? {
         "nearest" => Assignment::Nearest,
         "maximum" => Assignment::Maximum,
+        "soft" => Assignment::Soft,
         _ => return None,
     };
     let likelihood = match words.next()? {
@@ -163,16 +164,27 @@ pub fn case(words: &mut SplitAsciiWhitespace<'_>) -> Option<Case> {
         "fixed" => Sigma::Fixed(value),
         _ => return None,
     };
+    let delta = f32::from_bits(hexadecimal(words.next()?)?);
+    let minimum_points = words.next()?.parse().ok()?;
+    let pose = words.next()?.parse().ok()?;
+    let correspondences = words.next()?.parse().ok()?;
+    let threshold = match words.next() {
+        None => Threshold::Paper,
+        Some("mean") => Threshold::Mean,
+        Some("worst") => Threshold::Worst,
+        Some(_) => return None,
+    };
     Some(Case {
         settings: Settings {
             assignment,
             likelihood,
             sigma,
-            delta: f32::from_bits(hexadecimal(words.next()?)?),
-            minimum_points: words.next()?.parse().ok()?,
+            threshold,
+            delta,
+            minimum_points,
         },
-        pose: words.next()?.parse().ok()?,
-        correspondences: words.next()?.parse().ok()?,
+        pose,
+        correspondences,
     })
 }
 

@@ -6,7 +6,7 @@ use cobra_infer::template::{
     ComponentSource, HEADER_LENGTH, MAGIC, NAME_CAPACITY, RECORD_LENGTH, TemplateSource, VERSION,
     encode, encoded_len, peek_len,
 };
-use cobra_infer::{Exponent, Kernel, Metric, Template, Unit, tolerance};
+use cobra_infer::{Exponent, Kernel, Model, Template, Unit, tolerance};
 use nalgebra::Vector3;
 
 const PAGE: &str = include_str!("../../docs/FORMAT.md");
@@ -17,9 +17,10 @@ fn example() -> Vec<u8> {
     let component = ComponentSource {
         centre: [0.0, 0.0, -2.0],
         sigma_hat: 0.125,
+        precision: None,
         hyperparameters: Hyperparameters {
             length_scale: 0.5,
-            exponent: 1.0,
+            parameter: 1.0,
             prior_mean: 10.0,
         },
         directions: &directions,
@@ -31,8 +32,7 @@ fn example() -> Vec<u8> {
         centre: [0.0; 3],
         radius: 12.0,
         diameter: 24.0,
-        metric: Metric::Chord,
-        kernel: Kernel::RationalQuadratic(Exponent::One),
+        model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
         components: &[component],
     };
     let mut bytes = vec![0; encoded_len(&source)];

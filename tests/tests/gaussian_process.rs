@@ -1,11 +1,11 @@
 //! The Gaussian process against an independent dense solve: nalgebra's LU decomposition in double
 //! precision, with the covariance written out here.
 
-use cobra_infer::{Exponent, Kernel, Template, UnitDirection};
+use cobra_infer::{Kernel, Metric, Model, Smoothness, Template, UnitDirection};
 use cobra_tests::tolerance;
 use cobra_train::gp::{
-    FitOptions, Hyperparameters, NOISE_FLOOR, PriorMean, StopReason, fit, learn,
-    negative_log_marginal_likelihood, squared_distances,
+    Coordinates, FitOptions, FittedGp, Hyperparameters, NOISE_FLOOR, PriorMean, StopReason, fit,
+    learn, negative_log_marginal_likelihood,
 };
 use cobra_train::progress::Silent;
 use cobra_train::random::{Purpose, stream};
@@ -13,7 +13,17 @@ use cobra_train::train::{ReferencePoints, TrainOptions, train};
 use nalgebra::{DMatrix, DVector, Point3, UnitVector3, Vector3};
 use rand::RngExt;
 
-const EXPONENTS: [Exponent; 3] = [Exponent::One, Exponent::Half, Exponent::Free];
+fn models() -> impl Iterator<Item = Model> {
+    Metric::ALL
+        .into_iter()
+        .flat_map(|metric| Kernel::ALL.map(|kernel| Model { metric, kernel }))
+}
+
+/// How many hyperparameters a kernel leaves free.
+fn free(kernel: Kernel) -> usize {
+    let own = [kernel.fixed_length_scale(), kernel.fixed_parameter()];
+    2 + own.iter().filter(|fixed| fixed.is_none()).count()
+}
 
 /// Points on a lumpy patch around the origin.
 fn patch(count: usize) -> Vec<Point3<f64>> {
@@ -38,81 +48,118 @@ fn split(points: &[Point3<f64>]) -> (Vec<UnitVector3<f64>>, Vec<f64>) {
         .unzip()
 }
 
-fn independent_gram(h: &Hyperparameters, u: &[UnitVector3<f64>]) -> DMatrix<f64> {
+fn independent_gram(model: Model, h: &Hyperparameters, u: &[UnitVector3<f64>]) -> DMatrix<f64> {
     DMatrix::from_fn(u.len(), u.len(), |i, j| {
         let noise = if i == j { h.noise_variance } else { 0.0 };
-        noise + independent_covariance(h, &u[i], &u[j])
+        noise + independent_covariance(model, h, &u[i], &u[j])
     })
 }
 
-fn independent_covariance(h: &Hyperparameters, a: &UnitVector3<f64>, b: &UnitVector3<f64>) -> f64 {
-    let squared = (a.into_inner() - b.into_inner()).norm_squared();
-    let base = 1.0 + squared / (2.0 * h.exponent * h.length_scale.powi(2));
-    h.signal_variance * base.powf(-h.exponent)
+fn independent_coordinates(metric: Metric, u: &UnitVector3<f64>) -> Vector3<f64> {
+    match metric {
+        Metric::Chord => u.into_inner(),
+        Metric::Angles => Vector3::new(u.z.acos(), u.y.atan2(u.x), 0.0),
+    }
 }
 
-fn hyperparameters(exponent: Exponent) -> Hyperparameters {
+fn independent_covariance(
+    model: Model,
+    h: &Hyperparameters,
+    a: &UnitVector3<f64>,
+    b: &UnitVector3<f64>,
+) -> f64 {
+    let [a, b] = [a, b].map(|u| independent_coordinates(model.metric, u));
+    let (r, l, p) = ((a - b).norm(), h.length_scale, h.parameter);
+    let k = match model.kernel {
+        Kernel::RationalQuadratic(_) => (1.0 + r * r / (2.0 * p * l * l)).powf(-p),
+        Kernel::RadialBasis => (-0.5 * (r / l).powi(2)).exp(),
+        Kernel::Matern(smoothness) => {
+            let z = match smoothness {
+                Smoothness::Half => 1.0,
+                Smoothness::ThreeHalves => 3.0,
+                Smoothness::FiveHalves => 5.0,
+            };
+            let z = f64::sqrt(z) * r / l;
+            let polynomial = match smoothness {
+                Smoothness::Half => 1.0,
+                Smoothness::ThreeHalves => 1.0 + z,
+                Smoothness::FiveHalves => 1.0 + z + z * z / 3.0,
+            };
+            polynomial * (-z).exp()
+        }
+        Kernel::Linear => a.dot(&b),
+        Kernel::Polynomial => (a.dot(&b) + p).powi(3),
+        Kernel::Periodic => {
+            let sines = (a - b).map(|d| (std::f64::consts::PI * d / p).sin());
+            (-2.0 * sines.norm_squared() / (l * l)).exp()
+        }
+    };
+    h.signal_variance * k
+}
+
+fn hyperparameters(kernel: Kernel) -> Hyperparameters {
+    let fixed = |value: Option<f32>, free| value.map_or(free, f64::from);
     Hyperparameters {
-        length_scale: 0.4,
+        length_scale: fixed(kernel.fixed_length_scale(), 0.4),
         signal_variance: 0.03,
         noise_variance: 2e-4,
-        exponent: exponent.fixed().map_or(0.7, f64::from),
+        parameter: match kernel {
+            // Shorter, and the likelihood bends too fast for finite differences.
+            Kernel::Periodic => 2.5,
+            _ => fixed(kernel.fixed_parameter(), 0.7),
+        },
     }
 }
 
 #[test]
 fn the_marginal_likelihood_agrees_with_a_dense_solve() {
     let (u, y) = split(&patch(150));
-    for exponent in EXPONENTS {
-        let h = hyperparameters(exponent);
-        let found = negative_log_marginal_likelihood(
-            Kernel::RationalQuadratic(exponent),
-            &h,
-            &squared_distances(&u),
-            &y,
-        )
-        .unwrap();
-        let lu = independent_gram(&h, &u).lu();
+    for model in models() {
+        let h = hyperparameters(model.kernel);
+        let points = Coordinates::new(model.metric, &u);
+        let found = negative_log_marginal_likelihood(model.kernel, &h, &points, &y).unwrap();
+        let lu = independent_gram(model, &h, &u).lu();
         let targets = DVector::from_vec(y.clone());
         let log_determinant: f64 = lu.u().diagonal().iter().map(|d| d.abs().ln()).sum();
         let expected = 0.5 * targets.dot(&lu.solve(&targets).unwrap())
             + 0.5 * log_determinant
             + 0.5 * y.len() as f64 * (2.0 * std::f64::consts::PI).ln();
         let error = (found.value - expected).abs() / expected.abs();
-        assert!(
-            error < tolerance::DENSE_LIKELIHOOD,
-            "{exponent:?}: {error:e}"
-        );
+        assert!(error < tolerance::DENSE_LIKELIHOOD, "{model:?}: {error:e}");
     }
+}
+
+/// One hyperparameter multiplied by a factor, in the gradient's order.
+fn moved(kernel: Kernel, h: &Hyperparameters, index: usize, factor: f64) -> Hyperparameters {
+    let mut moved = *h;
+    let mut free = vec![&mut moved.signal_variance, &mut moved.noise_variance];
+    if kernel.fixed_length_scale().is_none() {
+        free.insert(0, &mut moved.length_scale);
+    }
+    if kernel.fixed_parameter().is_none() {
+        free.push(&mut moved.parameter);
+    }
+    *free[index] *= factor;
+    moved
 }
 
 #[test]
 fn the_gradient_agrees_with_central_differences() {
     let (u, y) = split(&patch(80));
-    let squared = squared_distances(&u);
-    for exponent in EXPONENTS {
-        let kernel = Kernel::RationalQuadratic(exponent);
-        let h = hyperparameters(exponent);
+    for model in models() {
+        let kernel = model.kernel;
+        let points = Coordinates::new(model.metric, &u);
+        let h = hyperparameters(kernel);
         let at = |index: usize, step: f64| {
-            let mut moved = h;
-            let value = match index {
-                0 => &mut moved.length_scale,
-                1 => &mut moved.signal_variance,
-                2 => &mut moved.noise_variance,
-                _ => &mut moved.exponent,
-            };
-            *value *= step.exp();
-            negative_log_marginal_likelihood(kernel, &moved, &squared, &y)
+            let moved = moved(kernel, &h, index, step.exp());
+            negative_log_marginal_likelihood(kernel, &moved, &points, &y)
                 .unwrap()
                 .value
         };
-        let gradient = negative_log_marginal_likelihood(kernel, &h, &squared, &y)
+        let gradient = negative_log_marginal_likelihood(kernel, &h, &points, &y)
             .unwrap()
             .gradient;
-        assert_eq!(
-            gradient.len(),
-            if exponent == Exponent::Free { 4 } else { 3 }
-        );
+        assert_eq!(gradient.len(), free(kernel));
         let largest = gradient.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
         for (index, analytic) in gradient.iter().enumerate() {
             let step = 1e-5;
@@ -120,7 +167,7 @@ fn the_gradient_agrees_with_central_differences() {
             let error = (analytic - numeric).abs() / largest;
             assert!(
                 error < tolerance::FINITE_DIFFERENCE,
-                "{exponent:?}, entry {index}: {analytic} against {numeric}"
+                "{model:?}, entry {index}: {analytic} against {numeric}"
             );
         }
     }
@@ -130,10 +177,10 @@ fn the_gradient_agrees_with_central_differences() {
 fn the_fitted_mean_agrees_with_a_dense_solve() {
     let points = patch(250);
     let (u, d) = split(&points);
-    for exponent in EXPONENTS {
+    for model in models() {
         for prior_mean in [PriorMean::Zero, PriorMean::Average] {
             let options = FitOptions {
-                kernel: Kernel::RationalQuadratic(exponent),
+                model,
                 prior_mean,
                 subset: 100,
             };
@@ -145,53 +192,51 @@ fn the_fitted_mean_agrees_with_a_dense_solve() {
                 PriorMean::Average => d.iter().sum::<f64>() / d.len() as f64,
             };
             let targets = DVector::from_iterator(d.len(), d.iter().map(|d| d - m));
-            let solution = independent_gram(h, &u).lu().solve(&targets).unwrap();
+            let gram = independent_gram(model, h, &u);
+            let solution = gram.lu().solve(&targets).unwrap();
             for query in split(&patch(20)).0 {
-                let expected: f64 = m + u
+                let rows = u
                     .iter()
-                    .zip(solution.iter())
-                    .map(|(u, w)| w * independent_covariance(h, &query, u))
-                    .sum::<f64>();
-                let found: f64 = fitted.prior_mean
-                    + fitted
-                        .directions
-                        .iter()
-                        .zip(&fitted.weights)
-                        .map(|(u, w)| w * independent_covariance(h, &query, u) / h.signal_variance)
-                        .sum::<f64>();
+                    .map(|u| independent_covariance(model, h, &query, u));
+                let expected: f64 = m + rows.zip(solution.iter()).map(|(k, w)| w * k).sum::<f64>();
+                let found = host_mean(model, &fitted, &query);
                 let error = (found - expected).abs();
-                assert!(error < tolerance::DENSE_MEAN, "{exponent:?}: {error:e}");
+                assert!(error < tolerance::DENSE_MEAN, "{model:?}: {error:e}");
             }
         }
     }
 }
 
+/// The mean that a fitted process predicts, with the covariance written out here.
+fn host_mean(model: Model, fitted: &FittedGp, query: &UnitVector3<f64>) -> f64 {
+    let h = &fitted.learned.hyperparameters;
+    let terms = fitted.directions.iter().zip(&fitted.weights);
+    let sum: f64 = terms
+        .map(|(u, w)| w * independent_covariance(model, h, query, u) / h.signal_variance)
+        .sum();
+    fitted.prior_mean + sum
+}
+
 #[test]
 fn learning_ends_where_no_small_step_is_better() {
     let (u, y) = split(&patch(120));
-    let squared = squared_distances(&u);
-    for exponent in EXPONENTS {
-        let kernel = Kernel::RationalQuadratic(exponent);
-        let learned = learn(kernel, &squared, &y).unwrap();
-        assert_eq!(learned.stop, StopReason::Converged);
+    for model in models() {
+        let kernel = model.kernel;
+        let points = Coordinates::new(model.metric, &u);
+        let learned = learn(kernel, &points, &y).unwrap();
+        assert_eq!(learned.stop, StopReason::Converged, "{model:?}");
         let best = learned.likelihood_per_point;
         for factor in [0.95, 1.05] {
-            let count = if exponent == Exponent::Free { 4 } else { 3 };
-            for index in 0..count {
-                let mut moved = learned.hyperparameters;
-                match index {
-                    0 => moved.length_scale *= factor,
-                    1 => moved.signal_variance *= factor,
-                    2 => moved.noise_variance = (factor * moved.noise_variance).max(NOISE_FLOOR),
-                    _ => moved.exponent *= factor,
-                }
-                let there = negative_log_marginal_likelihood(kernel, &moved, &squared, &y)
+            for index in 0..free(kernel) {
+                let mut moved = moved(kernel, &learned.hyperparameters, index, factor);
+                moved.noise_variance = moved.noise_variance.max(NOISE_FLOOR);
+                let there = negative_log_marginal_likelihood(kernel, &moved, &points, &y)
                     .unwrap()
                     .value
                     / y.len() as f64;
                 assert!(
                     there >= best - tolerance::LEARNED,
-                    "{exponent:?}: {there} below {best}"
+                    "{model:?}, entry {index} times {factor}: {there} below {best}"
                 );
             }
         }
@@ -201,33 +246,26 @@ fn learning_ends_where_no_small_step_is_better() {
 #[test]
 fn the_controllers_mean_is_the_hosts_to_a_hundredth_of_sigma_hat() {
     let mesh = cobra_train::demo::mechanical_part();
-    for exponent in EXPONENTS {
+    for model in models() {
         let mut options = TrainOptions::new("part");
-        options.points = 2000;
-        options.test_points = 4000;
-        options.reference_points = ReferencePoints::KMeans { components: 6 };
-        options.fit.kernel = Kernel::RationalQuadratic(exponent);
+        options.points = 600;
+        options.test_points = 1500;
+        options.reference_points = ReferencePoints::KMeans { components: 3 };
+        options.fit.model = model;
         let trained = train(&mesh, &options, &Silent).unwrap();
         let template = Template::from_bytes(&trained.bytes).unwrap();
         let radius = mesh.bounding_sphere().radius;
         for (component, trained) in template.components().zip(&trained.components) {
             let fitted = &trained.fitted;
-            let h = &fitted.learned.hyperparameters;
             for query in fitted.directions.iter().step_by(7) {
-                let host: f64 = fitted.prior_mean
-                    + fitted
-                        .directions
-                        .iter()
-                        .zip(&fitted.weights)
-                        .map(|(u, w)| w * independent_covariance(h, query, u) / h.signal_variance)
-                        .sum::<f64>();
+                let host = host_mean(model, fitted, query);
                 let direction = UnitDirection::new_unchecked(query.cast::<f32>().into_inner());
-                let controller = component.posterior_mean(template.kernel(), &direction);
+                let controller = component.posterior_mean(template.model(), &direction);
                 let error =
                     (f64::from(controller) - radius * host).abs() / f64::from(component.sigma_hat);
                 assert!(
                     error < tolerance::SINGLE_PRECISION_MEAN,
-                    "{exponent:?}: {error}"
+                    "{model:?}: {error}"
                 );
             }
         }

@@ -3,14 +3,15 @@
 //! Here and not in the trainer, because the format exists once. What was written is read back and
 //! validated, so that no file is made that a controller would refuse.
 
-use super::Template;
 use super::error::{EncodeError, Section};
 use super::wire::{
-    self, ComponentsSection, HEADER_LENGTH, Header, ModelSection, NAME_CAPACITY, ObjectSection,
-    RECORD_LENGTH, REQUIRED, SECTION_HEADER_LENGTH, SectionHeader, TermEncoding, TermsSection,
+    self, ComponentsSection, HEADER_LENGTH, Header, NAME_CAPACITY, ObjectSection, PRECISION_LENGTH,
+    PrecisionsSection, RECORD_LENGTH, REQUIRED, SECTION_HEADER_LENGTH, SectionHeader, TermEncoding,
+    TermsSection,
 };
+use super::{Precision, Template};
 use crate::gp::{Hyperparameters, UnitDirection};
-use crate::kernel::{Kernel, Metric};
+use crate::kernel::Model;
 use crate::unit::Unit;
 use heapless::String;
 use serde::ser::SerializeSeq;
@@ -29,10 +30,8 @@ pub struct TemplateSource<'a> {
     pub radius: f32,
     /// Largest distance between two points of the object.
     pub diameter: f32,
-    /// What counts as the distance between two directions.
-    pub metric: Metric,
-    /// The covariance function.
-    pub kernel: Kernel,
+    /// Metric and covariance function.
+    pub model: Model,
     /// The components, in the order in which the scorer visits them.
     pub components: &'a [ComponentSource<'a>],
 }
@@ -44,9 +43,12 @@ pub struct ComponentSource<'a> {
     pub centre: [f32; 3],
     /// σ̂_k.
     pub sigma_hat: f32,
+    /// Q_k, in 1/unit²: of all components or, for the identity in the unit sphere, of none.
+    pub precision: Option<Precision>,
     /// The hyperparameters that the mean needs.
     pub hyperparameters: Hyperparameters,
-    /// The directions, as many as weights.
+    /// The directions, as many as weights: unit vectors, which are written in the metric's
+    /// coordinates.
     pub directions: &'a [UnitDirection],
     /// The weights K⁻¹(d − m), times the signal variance.
     pub weights: &'a [f32],
@@ -56,11 +58,16 @@ pub struct ComponentSource<'a> {
 #[must_use]
 pub fn encoded_len(source: &TemplateSource<'_>) -> usize {
     // A varint has at most 5 bytes, an enum 1 to 2; the object section holds 5 floats.
-    let sections = 4 * SECTION_HEADER_LENGTH + (6 + source.name.len() + 2 + 5 * 4) + 6 + 8 + 7;
+    let sections = 5 * SECTION_HEADER_LENGTH + (6 + source.name.len() + 2 + 5 * 4) + 6 + 8 + 7 + 8;
     let terms: usize = source.components.iter().map(|c| c.weights.len()).sum();
     HEADER_LENGTH
         .saturating_add(sections)
-        .saturating_add(source.components.len().saturating_mul(RECORD_LENGTH))
+        .saturating_add(
+            source
+                .components
+                .len()
+                .saturating_mul(RECORD_LENGTH + PRECISION_LENGTH),
+        )
         .saturating_add(terms.saturating_mul(16))
 }
 
@@ -83,6 +90,14 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
             });
         }
     }
+    let with_precision = source
+        .components
+        .iter()
+        .filter(|c| c.precision.is_some())
+        .count();
+    if with_precision != 0 && with_precision != source.components.len() {
+        return Err(EncodeError::Precisions);
+    }
     let found = out.len();
     let mut used = HEADER_LENGTH;
     section(
@@ -97,15 +112,7 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
             diameter: source.diameter,
         },
     )?;
-    section(
-        out,
-        &mut used,
-        Section::Model,
-        &ModelSection {
-            metric: source.metric,
-            kernel: source.kernel,
-        },
-    )?;
+    section(out, &mut used, Section::Model, &source.model)?;
     section(
         out,
         &mut used,
@@ -121,9 +128,20 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
         Section::Terms,
         &TermsSection {
             encoding: TermEncoding::Float32,
-            values: Values(source.components),
+            values: Values(source),
         },
     )?;
+    if with_precision > 0 {
+        section(
+            out,
+            &mut used,
+            Section::Precisions,
+            &PrecisionsSection {
+                stride: PRECISION_LENGTH as u16,
+                factors: Factors(source.components),
+            },
+        )?;
+    }
     let written = out.get_mut(..used).ok_or(EncodeError::Buffer { found })?;
     let (header, payload) = written
         .split_first_chunk_mut::<HEADER_LENGTH>()
@@ -180,7 +198,7 @@ impl Serialize for Records<'_> {
                 z,
                 component.sigma_hat,
                 h.length_scale,
-                h.exponent,
+                h.parameter,
                 h.prior_mean,
             ];
             for byte in numbers
@@ -198,23 +216,45 @@ impl Serialize for Records<'_> {
 }
 
 /// The components' directions and weights.
-struct Values<'a>(&'a [ComponentSource<'a>]);
+struct Values<'a>(&'a TemplateSource<'a>);
 
 impl Serialize for Values<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let terms: usize = self.0.iter().map(|c| c.weights.len()).sum();
+        let Self(source) = self;
+        let terms: usize = source.components.iter().map(|c| c.weights.len()).sum();
         let mut sequence = serializer.serialize_seq(Some(terms.saturating_mul(16)))?;
-        for component in self.0 {
-            let directions = component.directions.iter();
-            let xs = directions.clone().map(|u| u.x);
-            let ys = directions.clone().map(|u| u.y);
-            let zs = directions.map(|u| u.z);
+        let metric = source.model.metric;
+        for component in source.components {
+            // A metric that this build leaves out is refused when the bytes are read back.
+            let directions = component.directions.iter().map(|u| {
+                let unit_vector = [u.x, u.y, u.z];
+                metric.coordinates(unit_vector).unwrap_or(unit_vector)
+            });
+            let xs = directions.clone().map(|[x, _, _]| x);
+            let ys = directions.clone().map(|[_, y, _]| y);
+            let zs = directions.map(|[_, _, z]| z);
             for byte in xs
                 .chain(ys)
                 .chain(zs)
                 .chain(component.weights.iter().copied())
                 .flat_map(f32::to_le_bytes)
             {
+                sequence.serialize_element(&byte)?;
+            }
+        }
+        sequence.end()
+    }
+}
+
+/// The components' precisions.
+struct Factors<'a>(&'a [ComponentSource<'a>]);
+
+impl Serialize for Factors<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let length = self.0.len().saturating_mul(PRECISION_LENGTH);
+        let mut sequence = serializer.serialize_seq(Some(length))?;
+        for precision in self.0.iter().filter_map(|c| c.precision) {
+            for byte in precision.factor().into_iter().flat_map(f32::to_le_bytes) {
                 sequence.serialize_element(&byte)?;
             }
         }

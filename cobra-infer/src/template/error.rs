@@ -1,6 +1,7 @@
 //! What can be wrong with a template: small `Copy` values that say what was found and, where there
 //! is a choice, what was expected.
 
+use crate::kernel::{Kernel, Metric};
 use core::fmt;
 
 /// A section of a template, by its tag.
@@ -14,6 +15,8 @@ pub enum Section {
     Components,
     /// Directions and weights.
     Terms,
+    /// The precision Q_k of each component.
+    Precisions,
 }
 
 impl Section {
@@ -25,6 +28,7 @@ impl Section {
             Section::Model => "model",
             Section::Components => "components",
             Section::Terms => "terms",
+            Section::Precisions => "precisions",
         }
     }
 }
@@ -125,6 +129,16 @@ pub enum TemplateError {
         /// Bytes there are.
         found: usize,
     },
+    /// This build leaves the template's kernel out.
+    KernelLeftOut {
+        /// The kernel.
+        kernel: Kernel,
+    },
+    /// This build leaves the template's metric out.
+    MetricLeftOut {
+        /// The metric.
+        metric: Metric,
+    },
     /// There is no component.
     NoComponents,
     /// A component has no term.
@@ -177,6 +191,25 @@ pub enum TemplateError {
         term: usize,
         /// Its squared norm.
         squared_norm: f32,
+    },
+    /// A direction's angles are not (φ, θ, 0) with φ in [0, π] and θ in [−π, π].
+    Angles {
+        /// Which component.
+        component: usize,
+        /// Which of its terms.
+        term: usize,
+    },
+    /// There are not as many precisions as components.
+    PrecisionCount {
+        /// How many components.
+        expected: usize,
+        /// How many precisions.
+        found: usize,
+    },
+    /// A component's precision has a factor that is not finite or whose diagonal is not positive.
+    Precision {
+        /// Which component.
+        component: usize,
     },
 }
 
@@ -257,6 +290,20 @@ impl fmt::Display for TemplateError {
                 "the {} section's array has {found} bytes, which is no multiple of {element}",
                 section.name()
             ),
+            E::KernelLeftOut { kernel } => write!(
+                f,
+                "the template's kernel is {}, which this build leaves out: enable the feature \
+                 \"{}\" of cobra-infer",
+                kernel.name(),
+                kernel.feature()
+            ),
+            E::MetricLeftOut { metric } => write!(
+                f,
+                "the template's metric is {}, which this build leaves out: enable the feature \
+                 \"{}\" of cobra-infer",
+                metric.name(),
+                metric.feature().unwrap_or_default()
+            ),
             E::NoComponents => f.write_str("the template has no component"),
             E::NoTerms { component } => write!(f, "component {component} has no term"),
             E::TermRange { component } => write!(
@@ -291,6 +338,19 @@ impl fmt::Display for TemplateError {
                 "component {component}: direction {term} is no unit vector (squared norm \
                  {squared_norm})"
             ),
+            E::Angles { component, term } => write!(
+                f,
+                "component {component}: direction {term} is not (phi, theta, 0) with phi in \
+                 [0, pi] and theta in [-pi, pi]"
+            ),
+            E::PrecisionCount { expected, found } => {
+                write!(f, "{found} precisions for {expected} components")
+            }
+            E::Precision { component } => write!(
+                f,
+                "component {component}: the precision's factor must be finite with a positive \
+                 diagonal"
+            ),
         }
     }
 }
@@ -305,6 +365,8 @@ pub enum EncodeError {
         /// Bytes there are.
         found: usize,
     },
+    /// Some components have a precision and some have none.
+    Precisions,
     /// A component has not as many directions as weights.
     TermCount {
         /// Which component.
@@ -332,6 +394,9 @@ impl fmt::Display for EncodeError {
                 f,
                 "the object's name has {found} bytes, at most {capacity} fit"
             ),
+            EncodeError::Precisions => {
+                f.write_str("either all components have a precision or none has")
+            }
             EncodeError::TermCount {
                 component,
                 directions,

@@ -7,18 +7,22 @@
 
 mod encode;
 mod error;
+mod precision;
 mod validate;
 mod wire;
 
 pub use encode::{ComponentSource, TemplateSource, encode, encoded_len};
 pub use error::{EncodeError, Section, TemplateError};
-pub use wire::{HEADER_LENGTH, MAGIC, NAME_CAPACITY, RECORD_LENGTH, VERSION, peek_len};
+pub use precision::Precision;
+pub use wire::{
+    HEADER_LENGTH, MAGIC, NAME_CAPACITY, PRECISION_LENGTH, RECORD_LENGTH, VERSION, peek_len,
+};
 
 use crate::gp::{self, Hyperparameters, Terms, UnitDirection, Word};
-use crate::kernel::{Kernel, Metric};
+use crate::kernel::{Kernel, Metric, Model};
 use crate::unit::Unit;
 use heapless::String;
-use wire::Record;
+use wire::{PrecisionRecord, Record};
 
 /// A validated template over borrowed bytes.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,9 +32,9 @@ pub struct Template<'a> {
     centre: [f32; 3],
     radius: f32,
     diameter: f32,
-    metric: Metric,
-    kernel: Kernel,
+    model: Model,
     records: &'a [Record],
+    precisions: Option<&'a [PrecisionRecord]>,
     words: &'a [Word],
 }
 
@@ -41,6 +45,8 @@ pub struct Component<'a> {
     pub centre: [f32; 3],
     /// σ̂_k > 0 (Eq. 9): the rms residual on held-out points, in the template's unit.
     pub sigma_hat: f32,
+    /// Q_k (Eq. 8), in 1/unit²; `None` for the identity in the unit sphere.
+    pub precision: Option<Precision>,
     /// The hyperparameters that its mean needs.
     pub hyperparameters: Hyperparameters,
     /// Its directions and weights.
@@ -52,7 +58,8 @@ pub struct Component<'a> {
 pub struct Cost {
     /// The most that nearest assignment needs: the terms of the largest component.
     pub nearest: usize,
-    /// What maximum assignment always needs: the terms of all components.
+    /// What maximum assignment always needs, and soft assignment at most: the terms of all
+    /// components.
     pub maximum: usize,
 }
 
@@ -107,16 +114,28 @@ impl<'a> Template<'a> {
         self.diameter
     }
 
-    /// What counts as the distance between two directions.
+    /// In which coordinates directions are compared.
     #[must_use]
     pub fn metric(&self) -> Metric {
-        self.metric
+        self.model.metric
     }
 
     /// The covariance function.
     #[must_use]
     pub fn kernel(&self) -> Kernel {
-        self.kernel
+        self.model.kernel
+    }
+
+    /// Metric and kernel, which a component's posterior mean needs.
+    #[must_use]
+    pub fn model(&self) -> Model {
+        self.model
+    }
+
+    /// Whether the components carry precisions Q_k of their own.
+    #[must_use]
+    pub fn has_precisions(&self) -> bool {
+        self.precisions.is_some()
     }
 
     /// How many components there are; at least one.
@@ -134,9 +153,11 @@ impl<'a> Template<'a> {
     /// The components, each read from its record as it is asked for.
     pub fn components(&self) -> impl ExactSizeIterator<Item = Component<'a>> + use<'a> {
         let words = self.words;
-        self.records
-            .iter()
-            .map(move |record| wire::component(record, words))
+        let mut precisions = self.precisions.map(<[PrecisionRecord]>::iter);
+        self.records.iter().map(move |record| {
+            let precision = precisions.as_mut().and_then(Iterator::next);
+            wire::component(record, precision, words)
+        })
     }
 
     /// The number of kernel evaluations that one point costs.
@@ -156,7 +177,7 @@ impl<'a> Template<'a> {
 impl Component<'_> {
     /// The posterior mean of the distance in direction `u`, in the template's unit (Eq. 5).
     #[must_use]
-    pub fn posterior_mean(&self, kernel: Kernel, u: &UnitDirection) -> f32 {
-        gp::posterior_mean(kernel, &self.hyperparameters, &self.terms, u)
+    pub fn posterior_mean(&self, model: Model, u: &UnitDirection) -> f32 {
+        gp::posterior_mean(model, &self.hyperparameters, &self.terms, u)
     }
 }

@@ -1,15 +1,17 @@
 //! Everything that is checked before a template is used.
 
-use super::Template;
 use super::error::{Section, TemplateError};
 use super::wire::{
-    self, ComponentsSection, HEADER_LENGTH, Header, ModelSection, ObjectSection, RECORD_LENGTH,
-    REQUIRED, Record, SECTION_HEADER_LENGTH, SectionHeader, TermsSection,
+    self, ComponentsSection, HEADER_LENGTH, Header, ObjectSection, PRECISION_LENGTH,
+    PrecisionRecord, PrecisionsSection, RECORD_LENGTH, REQUIRED, Record, SECTION_HEADER_LENGTH,
+    SectionHeader, TermsSection,
 };
+use super::{Precision, Template};
 use crate::gp::Word;
-use crate::kernel::Kernel;
+use crate::kernel::{Exponent, Kernel, Metric, Model};
 use crate::math;
 use crate::tolerance;
+use core::f32::consts::PI;
 use serde::Deserialize;
 
 pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
@@ -31,9 +33,14 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
     }
     let bodies = Bodies::find(payload)?;
     let object: ObjectSection = decode(Section::Object, bodies.object)?;
-    let model: ModelSection = decode(Section::Model, bodies.model)?;
+    let model: Model = decode(Section::Model, bodies.model)?;
     let components: ComponentsSection<&[u8]> = decode(Section::Components, bodies.components)?;
     let terms: TermsSection<&[u8]> = decode(Section::Terms, bodies.terms)?;
+    let precisions = match bodies.precisions {
+        Some(body) => Some(decode(Section::Precisions, body)?),
+        None => None,
+    };
+    check_model(model)?;
 
     let template = Template {
         name: object.name,
@@ -41,14 +48,18 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
         centre: object.centre,
         radius: object.radius,
         diameter: object.diameter,
-        metric: model.metric,
-        kernel: model.kernel,
+        model,
         records: records(&components)?,
+        precisions: match &precisions {
+            Some(section) => Some(factors(section)?),
+            None => None,
+        },
         words: words(&terms)?,
     };
     check_object(&template)?;
     check_ranges(&template)?;
     check_components(&template)?;
+    check_precisions(&template)?;
     Ok(template)
 }
 
@@ -58,6 +69,7 @@ struct Bodies<'a> {
     model: &'a [u8],
     components: &'a [u8],
     terms: &'a [u8],
+    precisions: Option<&'a [u8]>,
 }
 
 impl<'a> Bodies<'a> {
@@ -66,6 +78,7 @@ impl<'a> Bodies<'a> {
         let mut model = None;
         let mut components = None;
         let mut terms = None;
+        let mut precisions = None;
         let mut rest = payload;
         while !rest.is_empty() {
             let offset = HEADER_LENGTH.saturating_add(payload.len().saturating_sub(rest.len()));
@@ -94,6 +107,7 @@ impl<'a> Bodies<'a> {
                 Section::Model => &mut model,
                 Section::Components => &mut components,
                 Section::Terms => &mut terms,
+                Section::Precisions => &mut precisions,
             };
             if place.replace(body).is_some() {
                 return Err(TemplateError::DuplicateSection { section });
@@ -107,6 +121,7 @@ impl<'a> Bodies<'a> {
             model: found(model, Section::Model)?,
             components: found(components, Section::Components)?,
             terms: found(terms, Section::Terms)?,
+            precisions,
         })
     }
 }
@@ -146,6 +161,27 @@ fn records<'a>(section: &ComponentsSection<&'a [u8]>) -> Result<&'a [Record], Te
     Ok(records)
 }
 
+fn factors<'a>(
+    section: &PrecisionsSection<&'a [u8]>,
+) -> Result<&'a [PrecisionRecord], TemplateError> {
+    if usize::from(section.stride) != PRECISION_LENGTH {
+        return Err(TemplateError::RecordLength {
+            expected: PRECISION_LENGTH,
+            found: usize::from(section.stride),
+        });
+    }
+    let (words, odd_bytes) = section.factors.as_chunks();
+    let (factors, odd_words) = words.as_chunks();
+    if !odd_bytes.is_empty() || !odd_words.is_empty() {
+        return Err(TemplateError::ArrayLength {
+            section: Section::Precisions,
+            element: PRECISION_LENGTH,
+            found: section.factors.len(),
+        });
+    }
+    Ok(factors)
+}
+
 fn words<'a>(section: &TermsSection<&'a [u8]>) -> Result<&'a [Word], TemplateError> {
     let wire::TermEncoding::Float32 = section.encoding;
     let (words, odd) = section.values.as_chunks();
@@ -157,6 +193,17 @@ fn words<'a>(section: &TermsSection<&'a [u8]>) -> Result<&'a [Word], TemplateErr
         });
     }
     Ok(words)
+}
+
+fn check_model(model: Model) -> Result<(), TemplateError> {
+    let Model { metric, kernel } = model;
+    if !kernel.is_compiled_in() {
+        return Err(TemplateError::KernelLeftOut { kernel });
+    }
+    if !metric.is_compiled_in() {
+        return Err(TemplateError::MetricLeftOut { metric });
+    }
+    Ok(())
 }
 
 fn check_object(template: &Template<'_>) -> Result<(), TemplateError> {
@@ -218,23 +265,33 @@ fn check_components(template: &Template<'_>) -> Result<(), TemplateError> {
         number("sigma-hat", normal, sigma_hat, positive(sigma_hat))?;
         let h = &component.hyperparameters;
         let l = h.length_scale;
-        // The kernel sees only the square, which would hide a sign.
-        let square = "positive, with a square that is finite and no subnormal";
-        number("the length scale", square, l, l > 0.0 && positive(l * l))?;
-        let Kernel::RationalQuadratic(exponent) = template.kernel;
-        match exponent.fixed() {
-            Some(fixed) => number(
-                "the exponent",
-                "what the kernel fixes",
-                h.exponent,
-                h.exponent == fixed,
-            )?,
+        let kernel = template.kernel();
+        match kernel.fixed_length_scale() {
+            Some(fixed) => number("the length scale", "1", l, l == fixed)?,
+            // The kernel sees only the square, which would hide a sign.
             None => number(
-                "the exponent",
-                "positive, and 2*exponent*(length scale)^2 finite and no subnormal",
-                h.exponent,
-                positive(2.0 * h.exponent * l * l),
+                "the length scale",
+                "positive, with a square that is finite and no subnormal",
+                l,
+                l > 0.0 && positive(l * l),
             )?,
+        }
+        let name = match kernel.parameter_name() {
+            Some("exponent") => "the exponent",
+            Some("offset") => "the offset",
+            Some("period") => "the period",
+            _ => "the parameter",
+        };
+        let p = h.parameter;
+        match (kernel, kernel.fixed_parameter()) {
+            (_, Some(fixed)) => number(name, "what the kernel fixes", p, p == fixed)?,
+            (Kernel::RationalQuadratic(Exponent::Free), None) => number(
+                name,
+                "positive, and 2*exponent*(length scale)^2 finite and no subnormal",
+                p,
+                positive(2.0 * p * l * l),
+            )?,
+            (_, None) => number(name, normal, p, positive(p))?,
         }
         let m = h.prior_mean;
         number("the prior mean", "finite", m, m.is_finite())?;
@@ -245,15 +302,56 @@ fn check_components(template: &Template<'_>) -> Result<(), TemplateError> {
                     term,
                 });
             }
+            check_direction(template.metric(), index, term, direction)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_direction(
+    metric: Metric,
+    component: usize,
+    term: usize,
+    direction: [f32; 3],
+) -> Result<(), TemplateError> {
+    match metric {
+        Metric::Chord => {
             let squared_norm = math::dot(direction, direction);
             let unit = math::abs(squared_norm - 1.0) <= tolerance::UNIT_DIRECTION;
-            if !unit {
-                return Err(TemplateError::Direction {
-                    component: index,
+            if unit {
+                Ok(())
+            } else {
+                Err(TemplateError::Direction {
+                    component,
                     term,
                     squared_norm,
-                });
+                })
             }
+        }
+        Metric::Angles => {
+            // The f32 nearest to π, which an arctangent in f32 may return, lies above π.
+            let [phi, theta, rest] = direction;
+            let inside = (0.0..=PI).contains(&phi) && (-PI..=PI).contains(&theta);
+            if inside && rest == 0.0 {
+                Ok(())
+            } else {
+                Err(TemplateError::Angles { component, term })
+            }
+        }
+    }
+}
+
+fn check_precisions(template: &Template<'_>) -> Result<(), TemplateError> {
+    let Some(factors) = template.precisions else {
+        return Ok(());
+    };
+    let (expected, found) = (template.component_count(), factors.len());
+    if expected != found {
+        return Err(TemplateError::PrecisionCount { expected, found });
+    }
+    for (component, factor) in factors.iter().enumerate() {
+        if Precision::from_factor(factor.map(f32::from_le_bytes)).is_none() {
+            return Err(TemplateError::Precision { component });
         }
     }
     Ok(())

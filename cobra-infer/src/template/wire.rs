@@ -1,9 +1,8 @@
 //! The bytes: header, section headers, records, and the postcard structures of the sections.
 
-use super::Component;
 use super::error::{Section, TemplateError};
+use super::{Component, Precision};
 use crate::gp::{Hyperparameters, Terms, Word};
-use crate::kernel::{Kernel, Metric};
 use crate::unit::Unit;
 use crc::{CRC_32_ISO_HDLC, Crc};
 use heapless::String;
@@ -33,9 +32,18 @@ const RECORD_WORDS: usize = 9;
 /// Bytes in a component's record, the stride of the records' array.
 pub const RECORD_LENGTH: usize = RECORD_WORDS * 4;
 
-/// A component's record as it lies in the file: centre x, y, z; σ̂; length scale; exponent; prior
+/// A component's record as it lies in the file: centre x, y, z; σ̂; length scale; parameter; prior
 /// mean (all `f32`); index of the first term; number of terms (both `u32`).
 pub(super) type Record = [Word; RECORD_WORDS];
+
+/// Words in a component's precision.
+const PRECISION_WORDS: usize = 6;
+
+/// Bytes in a component's precision, the stride of the precisions' array.
+pub const PRECISION_LENGTH: usize = PRECISION_WORDS * 4;
+
+/// The factor L of a component's Q = LLᵀ, row by row.
+pub(super) type PrecisionRecord = [Word; PRECISION_WORDS];
 
 const CHECKSUM: Crc<u32, crc::Table<1>> = Crc::<u32, crc::Table<1>>::new(&CRC_32_ISO_HDLC);
 
@@ -151,6 +159,7 @@ pub(super) const fn tag(section: Section) -> u16 {
         Section::Model => 2,
         Section::Components => 3,
         Section::Terms => 4,
+        Section::Precisions => 5,
     }
 }
 
@@ -160,6 +169,7 @@ pub(super) fn section_of(found: u16) -> Option<Section> {
         Section::Model,
         Section::Components,
         Section::Terms,
+        Section::Precisions,
     ]
     .into_iter()
     .find(|section| tag(*section) == found)
@@ -174,17 +184,17 @@ pub(super) struct ObjectSection {
     pub(super) diameter: f32,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct ModelSection {
-    pub(super) metric: Metric,
-    pub(super) kernel: Kernel,
-}
-
 /// `B` is `&[u8]` when reading and a sequence of the same bytes when writing.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct ComponentsSection<B> {
     pub(super) stride: u16,
     pub(super) records: B,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct PrecisionsSection<B> {
+    pub(super) stride: u16,
+    pub(super) factors: B,
 }
 
 /// How directions and weights are stored.
@@ -215,16 +225,22 @@ pub(super) fn term_words<'a>(record: &Record, words: &'a [Word]) -> Option<&'a [
 }
 
 /// The component of a validated record; a record that was not validated has no terms.
-pub(super) fn component<'a>(record: &Record, words: &'a [Word]) -> Component<'a> {
-    let [x, y, z, sigma_hat, length_scale, exponent, prior_mean, ..] =
+pub(super) fn component<'a>(
+    record: &Record,
+    precision: Option<&PrecisionRecord>,
+    words: &'a [Word],
+) -> Component<'a> {
+    let [x, y, z, sigma_hat, length_scale, parameter, prior_mean, ..] =
         record.map(f32::from_le_bytes);
     let own = term_words(record, words).unwrap_or(&[]);
     Component {
         centre: [x, y, z],
         sigma_hat,
+        precision: precision
+            .and_then(|factor| Precision::from_factor(factor.map(f32::from_le_bytes))),
         hyperparameters: Hyperparameters {
             length_scale,
-            exponent,
+            parameter,
             prior_mean,
         },
         terms: Terms::from_words(own).unwrap_or(Terms::EMPTY),

@@ -1,8 +1,8 @@
 //! The content of a template, owned, and its encoding: what tests build templates from.
 
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
-use cobra_infer::template::{ComponentSource, TemplateSource, encode, encoded_len};
-use cobra_infer::{EncodeError, Exponent, Kernel, Metric, Unit};
+use cobra_infer::template::{ComponentSource, Precision, TemplateSource, encode, encoded_len};
+use cobra_infer::{EncodeError, Exponent, Kernel, Metric, Model, Unit};
 use nalgebra::Vector3;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -11,6 +11,7 @@ use proptest::prelude::*;
 pub(crate) struct Part {
     pub(crate) centre: [f32; 3],
     pub(crate) sigma_hat: f32,
+    pub(crate) precision: Option<Precision>,
     pub(crate) hyperparameters: Hyperparameters,
     pub(crate) directions: Vec<UnitDirection>,
     pub(crate) weights: Vec<f32>,
@@ -23,7 +24,7 @@ pub(crate) struct Content {
     pub(crate) centre: [f32; 3],
     pub(crate) radius: f32,
     pub(crate) diameter: f32,
-    pub(crate) kernel: Kernel,
+    pub(crate) model: Model,
     pub(crate) parts: Vec<Part>,
 }
 
@@ -35,6 +36,7 @@ impl Content {
             .map(|part| ComponentSource {
                 centre: part.centre,
                 sigma_hat: part.sigma_hat,
+                precision: part.precision,
                 hyperparameters: part.hyperparameters,
                 directions: &part.directions,
                 weights: &part.weights,
@@ -46,8 +48,7 @@ impl Content {
             centre: self.centre,
             radius: self.radius,
             diameter: self.diameter,
-            metric: Metric::Chord,
-            kernel: self.kernel,
+            model: self.model,
             components: &components,
         };
         let mut bytes = vec![0; encoded_len(&source)];
@@ -65,9 +66,10 @@ impl Content {
         let part = |x: f32, count: usize| Part {
             centre: [x, 0.5, -0.25],
             sigma_hat: 0.125,
+            precision: None,
             hyperparameters: Hyperparameters {
                 length_scale: 0.5,
-                exponent: 1.0,
+                parameter: 1.0,
                 prior_mean: 10.0,
             },
             directions: [
@@ -84,7 +86,7 @@ impl Content {
             centre: [0.0; 3],
             radius: 12.0,
             diameter: 24.0,
-            kernel: Kernel::RationalQuadratic(Exponent::One),
+            model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
             parts: vec![part(-2.0, 3), part(2.0, 2)],
         }
     }
@@ -111,15 +113,24 @@ pub(crate) fn direction() -> impl Strategy<Value = UnitDirection> {
         .prop_map(|[x, y, z]| UnitDirection::new_normalize(Vector3::new(x, y, z)))
 }
 
-pub(crate) fn exponent() -> impl Strategy<Value = Exponent> {
-    prop_oneof![
-        Just(Exponent::One),
-        Just(Exponent::Half),
-        Just(Exponent::Free)
-    ]
+pub(crate) fn model() -> impl Strategy<Value = Model> {
+    let kernel = prop::sample::select(&Kernel::ALL[..]);
+    let metric = prop::sample::select(&Metric::ALL[..]);
+    (metric, kernel).prop_map(|(metric, kernel)| Model { metric, kernel })
 }
 
-pub(crate) fn part(exponent: Exponent, terms: usize) -> impl Strategy<Value = Part> {
+fn precision() -> impl Strategy<Value = Precision> {
+    let entry = -2.0_f32..2.0;
+    (
+        [0.01_f32..3.0, 0.01_f32..3.0, 0.01_f32..3.0],
+        [entry.clone(), entry.clone(), entry],
+    )
+        .prop_map(|([xx, yy, zz], [yx, zx, zy])| {
+            Precision::from_factor([xx, yx, yy, zx, zy, zz]).unwrap()
+        })
+}
+
+pub(crate) fn part(kernel: Kernel, terms: usize) -> impl Strategy<Value = Part> {
     (
         [-5.0_f32..5.0, -5.0_f32..5.0, -5.0_f32..5.0],
         0.01_f32..2.0,
@@ -131,9 +142,10 @@ pub(crate) fn part(exponent: Exponent, terms: usize) -> impl Strategy<Value = Pa
             move |(centre, sigma_hat, (l, free, m), directions, weights)| Part {
                 centre,
                 sigma_hat,
+                precision: None,
                 hyperparameters: Hyperparameters {
-                    length_scale: l,
-                    exponent: exponent.fixed().unwrap_or(free),
+                    length_scale: kernel.fixed_length_scale().unwrap_or(l),
+                    parameter: kernel.fixed_parameter().unwrap_or(free),
                     prior_mean: m,
                 },
                 directions,
@@ -144,9 +156,14 @@ pub(crate) fn part(exponent: Exponent, terms: usize) -> impl Strategy<Value = Pa
 
 /// Any template of up to five components of up to forty terms.
 pub(crate) fn content() -> impl Strategy<Value = Content> {
-    let parts = exponent().prop_flat_map(|exponent| {
-        let part = (1_usize..41).prop_flat_map(move |terms| part(exponent, terms));
-        (Just(exponent), vec(part, 1..6))
+    let parts = (model(), any::<bool>()).prop_flat_map(|(model, precise)| {
+        let part = (1_usize..41, precision()).prop_flat_map(move |(terms, precision)| {
+            part(model.kernel, terms).prop_map(move |part| Part {
+                precision: precise.then_some(precision),
+                ..part
+            })
+        });
+        (Just(model), vec(part, 1..6))
     });
     (
         vec(any::<char>(), 0..9),
@@ -156,13 +173,13 @@ pub(crate) fn content() -> impl Strategy<Value = Content> {
         parts,
     )
         .prop_map(
-            |(name, unit, centre, (radius, diameter), (exponent, parts))| Content {
+            |(name, unit, centre, (radius, diameter), (model, parts))| Content {
                 name: name.into_iter().collect(),
                 unit,
                 centre,
                 radius,
                 diameter,
-                kernel: Kernel::RationalQuadratic(exponent),
+                model,
                 parts,
             },
         )

@@ -4,11 +4,13 @@
     reason = "the reference values are computed independently of the crate's own functions"
 )]
 
-use crate::content::{Content, content};
+use crate::content::{Content, Part, content};
 use crate::scene::{COMPONENTS, settings};
 use crate::tolerance::{DENSITY, DISTANCE, MAXIMUM_LIKELIHOOD, QUADRATURE, TINY_NOISE};
 use cobra_infer::mixture::Match;
-use cobra_infer::{Assignment, Likelihood, Mixture, ScoreError, Settings, Sigma, Template, bound};
+use cobra_infer::{
+    Assignment, Likelihood, Mixture, ScoreError, Settings, Sigma, Template, Threshold, bound,
+};
 use nalgebra::Point3;
 use proptest::prelude::*;
 
@@ -63,10 +65,17 @@ proptest! {
         let likelihood = Likelihood::Peak;
         let found = evaluate(&template, Assignment::Nearest, likelihood, TEMPLATE_SIGMA, point);
         let Some(found) = found else { return Ok(()); };
-        for part in &content.parts {
+        let reach = |part: &Part| {
             let offset = Point3::from(point) - Point3::from(part.centre);
-            // The two distances are rounded differently.
-            prop_assert!(found.distance <= offset.norm() * (1.0 + DISTANCE as f32));
+            match part.precision {
+                Some(precision) => precision.form(offset.into()),
+                None => offset.norm_squared(),
+            }
+        };
+        let nearest = reach(&content.parts[found.component]);
+        for part in &content.parts {
+            // The two are rounded differently.
+            prop_assert!(nearest <= reach(part) * (1.0 + 2.0 * DISTANCE as f32));
         }
     }
 
@@ -140,7 +149,7 @@ proptest! {
         let density = f64::from(density.unwrap().likelihood);
         let found = 1.0 / (density * density * core::f64::consts::TAU);
         prop_assert!((found / squares - 1.0).abs() <= 2.0 * (QUADRATURE + DENSITY));
-        let least = bound::contribution(Likelihood::Peak, sigma_hat, delta);
+        let least = bound::contribution(Likelihood::Peak, Threshold::Paper, sigma_hat, delta);
         prop_assert!(threshold(&content, &with_noise) >= least);
     }
 
@@ -156,7 +165,7 @@ proptest! {
                 sigma: Sigma::Fixed(sigma),
                 ..Settings::with_delta(delta)
             };
-            let expected = bound::contribution(likelihood, sigma, delta);
+            let expected = bound::contribution(likelihood, Threshold::Paper, sigma, delta);
             prop_assert_eq!(threshold(&content, &settings).to_bits(), expected.to_bits());
         }
     }
@@ -174,7 +183,7 @@ fn noise_far_below_one_is_not_lost() {
         ..Settings::with_delta(noise)
     };
     let mixture = Mixture::<1>::new(&template, &settings).unwrap();
-    let expected = bound::contribution(Likelihood::Peak, noise, noise);
+    let expected = bound::contribution(Likelihood::Peak, Threshold::Paper, noise, noise);
     assert!((mixture.threshold(None) - expected).abs() < TINY_NOISE as f32);
 }
 

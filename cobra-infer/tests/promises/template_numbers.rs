@@ -2,7 +2,7 @@
 
 use crate::content::Content;
 use crate::sections::{OBJECT, TERMS, set_record_word, set_term_word, with_body};
-use cobra_infer::{Exponent, Kernel, Template, TemplateError};
+use cobra_infer::{Exponent, Kernel, Metric, Model, Template, TemplateError};
 
 const NOT_FINITE: [f32; 3] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
 /// Finite, but neither they nor their inverses are usable where something is divided by.
@@ -11,7 +11,7 @@ const NOT_POSITIVE: [f32; 4] = [0.0, -0.0, -1.0, 1e-40];
 /// Words of a record, by the format's document.
 const SIGMA_HAT: usize = 3;
 const LENGTH_SCALE: usize = 4;
-const EXPONENT: usize = 5;
+const PARAMETER: usize = 5;
 const PRIOR_MEAN: usize = 6;
 const FIRST_TERM: usize = 7;
 const TERM_COUNT: usize = 8;
@@ -90,14 +90,14 @@ fn a_length_scale_whose_square_vanishes_or_overflows_is_refused() {
 fn an_exponent_that_contradicts_the_kernel_is_refused() {
     let mut content = Content::small();
     for (exponent, fixed) in [(Exponent::One, 1.0_f32), (Exponent::Half, 0.5)] {
-        content.kernel = Kernel::RationalQuadratic(exponent);
+        content.model.kernel = Kernel::RationalQuadratic(exponent);
         for part in &mut content.parts {
-            part.hyperparameters.exponent = fixed;
+            part.hyperparameters.parameter = fixed;
         }
         let bytes = content.encode();
         let neighbour = f32::from_bits(fixed.to_bits() + 1);
         for value in [1.5 - fixed, neighbour, -fixed, 0.0, f32::NAN] {
-            refuses_number(&bytes, EXPONENT, value, "the exponent");
+            refuses_number(&bytes, PARAMETER, value, "the exponent");
         }
     }
 }
@@ -105,11 +105,75 @@ fn an_exponent_that_contradicts_the_kernel_is_refused() {
 #[test]
 fn a_free_exponent_must_be_positive_and_divide() {
     let mut content = Content::small();
-    content.kernel = Kernel::RationalQuadratic(Exponent::Free);
+    content.model.kernel = Kernel::RationalQuadratic(Exponent::Free);
     let bytes = content.encode();
     // The kernel divides by twice the exponent, which the last makes infinite.
     for value in NOT_FINITE.into_iter().chain(NOT_POSITIVE).chain([f32::MAX]) {
-        refuses_number(&bytes, EXPONENT, value, "the exponent");
+        refuses_number(&bytes, PARAMETER, value, "the exponent");
+    }
+}
+
+#[test]
+fn an_offset_and_a_period_must_be_positive() {
+    let mut content = Content::small();
+    for (kernel, name) in [
+        (Kernel::Polynomial, "the offset"),
+        (Kernel::Periodic, "the period"),
+    ] {
+        content.model.kernel = kernel;
+        for part in &mut content.parts {
+            part.hyperparameters.length_scale = 1.0;
+        }
+        let bytes = content.encode();
+        for value in NOT_FINITE.into_iter().chain(NOT_POSITIVE) {
+            refuses_number(&bytes, PARAMETER, value, name);
+        }
+    }
+}
+
+#[test]
+fn a_number_that_a_kernel_has_not_is_1() {
+    let mut content = Content::small();
+    for kernel in Kernel::ALL {
+        content.model.kernel = kernel;
+        for part in &mut content.parts {
+            part.hyperparameters.parameter = kernel.fixed_parameter().unwrap_or(0.75);
+            part.hyperparameters.length_scale = kernel.fixed_length_scale().unwrap_or(0.75);
+        }
+        let bytes = content.encode();
+        if kernel.parameter_name().is_none() {
+            refuses_number(&bytes, PARAMETER, 0.75, "the parameter");
+        }
+        if kernel.fixed_length_scale().is_some() {
+            refuses_number(&bytes, LENGTH_SCALE, 0.75, "the length scale");
+        }
+    }
+}
+
+#[test]
+fn angles_outside_their_ranges_are_refused_by_their_place() {
+    let mut content = Content::small();
+    content.model = Model {
+        metric: Metric::Angles,
+        ..content.model
+    };
+    let bytes = content.encode();
+    // Component 1 has two terms from word 12 on: phi, phi, theta, theta, 0, 0, weights.
+    let expected = TemplateError::Angles {
+        component: 1,
+        term: 0,
+    };
+    for (word, values) in [
+        (12, &[-0.1, 3.15, f32::NAN][..]),
+        (14, &[-3.15, 3.15, f32::INFINITY]),
+        (16, &[1e-30, -1.0, f32::NAN]),
+    ] {
+        for value in values {
+            assert_eq!(refused(&set_term_word(&bytes, word, *value)), expected);
+        }
+    }
+    for (word, value) in [(12, core::f32::consts::PI), (14, -core::f32::consts::PI)] {
+        assert!(Template::from_bytes(&set_term_word(&bytes, word, value)).is_ok());
     }
 }
 

@@ -3,7 +3,7 @@
 
 use crate::content::{Content, content};
 use cobra_infer::template::{HEADER_LENGTH, peek_len};
-use cobra_infer::{EncodeError, Metric, Template, TemplateError};
+use cobra_infer::{EncodeError, Template, TemplateError};
 use proptest::prelude::*;
 
 fn bits<const N: usize>(numbers: [f32; N]) -> [u32; N] {
@@ -22,8 +22,7 @@ proptest! {
         prop_assert_eq!(bits(template.centre()), bits(content.centre));
         prop_assert_eq!(template.radius().to_bits(), content.radius.to_bits());
         prop_assert_eq!(template.diameter().to_bits(), content.diameter.to_bits());
-        prop_assert_eq!(template.metric(), Metric::Chord);
-        prop_assert_eq!(template.kernel(), content.kernel);
+        prop_assert_eq!(template.model(), content.model);
         prop_assert_eq!(template.component_count(), content.parts.len());
         let sizes = content.parts.iter().map(|part| part.weights.len());
         prop_assert_eq!(template.term_count(), sizes.clone().sum::<usize>());
@@ -32,14 +31,16 @@ proptest! {
         for (component, part) in template.components().zip(&content.parts) {
             prop_assert_eq!(bits(component.centre), bits(part.centre));
             prop_assert_eq!(component.sigma_hat.to_bits(), part.sigma_hat.to_bits());
+            prop_assert_eq!(component.precision, part.precision);
             let (read, written) = (component.hyperparameters, part.hyperparameters);
             prop_assert_eq!(read.length_scale.to_bits(), written.length_scale.to_bits());
-            prop_assert_eq!(read.exponent.to_bits(), written.exponent.to_bits());
+            prop_assert_eq!(read.parameter.to_bits(), written.parameter.to_bits());
             prop_assert_eq!(read.prior_mean.to_bits(), written.prior_mean.to_bits());
             prop_assert_eq!(component.terms.len(), part.weights.len());
             let written = part.directions.iter().zip(&part.weights);
             for ((direction, weight), (u, w)) in component.terms.iter().zip(written) {
-                prop_assert_eq!(bits(direction), bits([u.x, u.y, u.z]));
+                let expected = content.model.metric.coordinates([u.x, u.y, u.z]).unwrap();
+                prop_assert_eq!(bits(direction), bits(expected));
                 prop_assert_eq!(weight.to_bits(), w.to_bits());
             }
         }
@@ -180,6 +181,7 @@ fn a_buffer_a_byte_too_small_is_refused_at_any_size() {
     let one = [ComponentSource {
         centre: part.centre,
         sigma_hat: part.sigma_hat,
+        precision: None,
         hyperparameters: part.hyperparameters,
         directions: &part.directions,
         weights: &part.weights,
@@ -190,8 +192,7 @@ fn a_buffer_a_byte_too_small_is_refused_at_any_size() {
         centre: [0.0; 3],
         radius: 1.0,
         diameter: 2.0,
-        metric: Metric::Chord,
-        kernel: content.kernel,
+        model: content.model,
         components: &one,
     };
     let mut buffer = vec![0xa5; needed];

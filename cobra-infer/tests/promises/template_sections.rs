@@ -221,8 +221,8 @@ fn values_that_no_version_1_writer_writes_are_malformed() {
         (OBJECT, object, 0, |body, at| body[at] = 33),
         (OBJECT, object, 1, |body, at| body[at] = 0xff),
         (OBJECT, object, unit, |body, at| body[at] = 4),
-        (MODEL, model, 0, |body, at| body[at] = 1),
-        (MODEL, model, 1, |body, at| body[at] = 1),
+        (MODEL, model, 0, |body, at| body[at] = 2),
+        (MODEL, model, 1, |body, at| body[at] = 6),
         (MODEL, model, 2, |body, at| body[at] = 3),
         (TERMS, terms, 0, |body, at| body[at] = 1),
     ];

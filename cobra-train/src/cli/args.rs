@@ -2,7 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use cobra_infer::{Assignment, Exponent, Likelihood, Unit};
+use cobra_infer::{Assignment, Exponent, Kernel, Likelihood, Metric, Smoothness, Threshold, Unit};
 use cobra_train::input::Weighting;
 use std::path::PathBuf;
 
@@ -103,10 +103,20 @@ pub(crate) struct TrainArguments {
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) components: Option<u32>,
 
-    /// Exponent of the rational quadratic kernel; scoring with 0.5 takes about 4 times as long as
-    /// with 1, with a free exponent about 70 times
-    #[arg(long, value_name = "ALPHA", value_enum, default_value_t = ExponentArgument::One)]
-    pub(crate) exponent: ExponentArgument,
+    /// Covariance function: rational quadratic, radial basis function, Matern of smoothness 1/2,
+    /// 3/2 or 5/2, linear, polynomial of degree 3, periodic
+    #[arg(long, value_enum, default_value_t = KernelArgument::Rq)]
+    pub(crate) kernel: KernelArgument,
+
+    /// Exponent of the rational quadratic [default: 1]; scoring with 0.5 takes about 4 times as
+    /// long as with 1, with a free exponent about 70 times
+    #[arg(long, value_name = "ALPHA", value_enum)]
+    pub(crate) exponent: Option<ExponentArgument>,
+
+    /// Distance between directions: the chord between unit vectors, or that of the angles (phi,
+    /// theta) as the paper prints it, which has a seam and poles
+    #[arg(long, value_enum, default_value_t = MetricArgument::Chord)]
+    pub(crate) metric: MetricArgument,
 
     /// Unit that the mesh's numbers are in; files carry none
     #[arg(long, value_enum, default_value_t = UnitArgument::Mm)]
@@ -166,6 +176,12 @@ pub(crate) struct ScoreArguments {
     #[arg(long, value_name = "MM", value_parser = positive)]
     pub(crate) delta: Option<f32>,
 
+    /// What the threshold promises: the paper's Eq. 11, a lower bound of mean; the average
+    /// confidence of poses whose residuals spread evenly in +-delta; or the least of a pose all of
+    /// whose residuals are within delta
+    #[arg(long, value_enum, default_value_t = ThresholdArgument::Paper)]
+    pub(crate) threshold: ThresholdArgument,
+
     /// What a correspondence weighs: all the same, or the column conf
     #[arg(long, value_enum, default_value_t = WeightsArgument::Uniform)]
     pub(crate) weights: WeightsArgument,
@@ -178,8 +194,8 @@ pub(crate) struct ScoreArguments {
     #[arg(long, value_enum, default_value_t = LikelihoodArgument::Peak)]
     pub(crate) likelihood: LikelihoodArgument,
 
-    /// Which component speaks for a point: the nearest, or the one that finds it most probable,
-    /// which also forgives more wrong points
+    /// Which component speaks for a point: the nearest; the one that finds it most probable (max),
+    /// which also forgives more wrong points; or all of them, mixed as in the paper's Eqs. 6 to 8
     #[arg(long, value_enum, default_value_t = AssignmentArgument::Nearest)]
     pub(crate) assignment: AssignmentArgument,
 
@@ -217,7 +233,7 @@ pub(crate) struct EvalArguments {
     #[arg(long, value_name = "N", default_value_t = 30_000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) points: u32,
 
-    /// Which component speaks for a point; the other rule's figures are given beside
+    /// Which component speaks for a point; the other rules' figures are given beside
     #[arg(long, value_enum, default_value_t = AssignmentArgument::Nearest)]
     pub(crate) assignment: AssignmentArgument,
 
@@ -263,6 +279,48 @@ impl From<UnitArgument> for Unit {
             UnitArgument::Cm => Unit::Centimetre,
             UnitArgument::M => Unit::Metre,
             UnitArgument::Inch => Unit::Inch,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum KernelArgument {
+    Rq,
+    Rbf,
+    Matern12,
+    Matern32,
+    Matern52,
+    Linear,
+    Polynomial,
+    Periodic,
+}
+
+impl KernelArgument {
+    pub(crate) fn with_exponent(self, exponent: Exponent) -> Kernel {
+        match self {
+            KernelArgument::Rq => Kernel::RationalQuadratic(exponent),
+            KernelArgument::Rbf => Kernel::RadialBasis,
+            KernelArgument::Matern12 => Kernel::Matern(Smoothness::Half),
+            KernelArgument::Matern32 => Kernel::Matern(Smoothness::ThreeHalves),
+            KernelArgument::Matern52 => Kernel::Matern(Smoothness::FiveHalves),
+            KernelArgument::Linear => Kernel::Linear,
+            KernelArgument::Polynomial => Kernel::Polynomial,
+            KernelArgument::Periodic => Kernel::Periodic,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum MetricArgument {
+    Chord,
+    Angles,
+}
+
+impl From<MetricArgument> for Metric {
+    fn from(metric: MetricArgument) -> Self {
+        match metric {
+            MetricArgument::Chord => Metric::Chord,
+            MetricArgument::Angles => Metric::Angles,
         }
     }
 }
@@ -317,9 +375,27 @@ impl From<LikelihoodArgument> for Likelihood {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum ThresholdArgument {
+    Paper,
+    Mean,
+    Worst,
+}
+
+impl From<ThresholdArgument> for Threshold {
+    fn from(threshold: ThresholdArgument) -> Self {
+        match threshold {
+            ThresholdArgument::Paper => Threshold::Paper,
+            ThresholdArgument::Mean => Threshold::Mean,
+            ThresholdArgument::Worst => Threshold::Worst,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum AssignmentArgument {
     Nearest,
     Max,
+    Soft,
 }
 
 impl From<AssignmentArgument> for Assignment {
@@ -327,6 +403,7 @@ impl From<AssignmentArgument> for Assignment {
         match assignment {
             AssignmentArgument::Nearest => Assignment::Nearest,
             AssignmentArgument::Max => Assignment::Maximum,
+            AssignmentArgument::Soft => Assignment::Soft,
         }
     }
 }

@@ -31,35 +31,37 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
     warn_of_another_object(&template, &mesh, terminal);
     let points = test_points(&mesh, arguments)?;
     let chosen: Assignment = arguments.assignment.into();
-    let other = match chosen {
-        Assignment::Nearest => Assignment::Maximum,
-        Assignment::Maximum => Assignment::Nearest,
-    };
     let evaluation = evaluate(&template, chosen, &points)?;
-    let beside = evaluate(&template, other, &points)?;
+    let mut beside = Vec::new();
+    for other in [Assignment::Nearest, Assignment::Maximum, Assignment::Soft] {
+        if other != chosen {
+            beside.push((other, evaluate(&template, other, &points)?));
+        }
+    }
     if let Some(path) = &arguments.points_out {
         write_points(path, &evaluation.predicted)?;
     }
     let json = JsonTarget(arguments.json.as_ref());
     json.write(
         &Document {
-            schema: 1,
+            schema: 2,
             name: template.name(),
             points: points.len(),
             tau: cobra_train::evaluate::TAU,
             figures: Figures::new(chosen, &evaluation, &template),
-            other_rule: Figures::new(other, &beside, &template),
+            other_rules: beside
+                .iter()
+                .map(|(rule, evaluation)| Figures::new(*rule, evaluation, &template))
+                .collect(),
         },
         terminal,
     )?;
     if json.replaces_the_table() {
         return Ok(());
     }
-    terminal.print(&text(
-        &template,
-        &[(chosen, &evaluation), (other, &beside)],
-        points.len(),
-    ))
+    let mut rows = vec![(chosen, &evaluation)];
+    rows.extend(beside.iter().map(|(rule, evaluation)| (*rule, evaluation)));
+    terminal.print(&text(&template, &rows, points.len()))
 }
 
 fn test_points(mesh: &Mesh, arguments: &EvalArguments) -> Result<Vec<Point3<f64>>, Failure> {
@@ -99,7 +101,7 @@ struct Document<'a> {
     tau: f64,
     #[serde(flatten)]
     figures: Figures,
-    other_rule: Figures,
+    other_rules: Vec<Figures>,
 }
 
 /// Chamfer, shares and `residual` in the unit sphere; `residual_mm` in millimetres.
@@ -131,6 +133,7 @@ fn name(assignment: Assignment) -> &'static str {
     match assignment {
         Assignment::Nearest => "nearest",
         Assignment::Maximum => "max",
+        Assignment::Soft => "soft",
     }
 }
 

@@ -35,8 +35,12 @@ struct Document {
     centre: [f32; 3],
     radius: f32,
     diameter: f32,
-    metric: String,
-    kernel: String,
+    metric: &'static str,
+    kernel: &'static str,
+    /// What the components' `parameter` is, where the kernel has one.
+    parameter: Option<&'static str>,
+    /// Whether components carry a precision Q_k of their own.
+    precisions: bool,
     terms: usize,
     bytes: Bytes,
     kernel_evaluations_per_point: Evaluations,
@@ -62,7 +66,7 @@ struct ComponentDocument {
     centre: [f32; 3],
     sigma_hat: f32,
     length_scale: f32,
-    exponent: f32,
+    parameter: f32,
     prior_mean: f32,
     terms: usize,
 }
@@ -80,8 +84,10 @@ impl Document {
             centre: template.centre(),
             radius: template.radius(),
             diameter: template.diameter(),
-            metric: format!("{:?}", template.metric()).to_lowercase(),
-            kernel: kernel(template),
+            metric: template.metric().name(),
+            kernel: template.kernel().name(),
+            parameter: template.kernel().parameter_name(),
+            precisions: template.has_precisions(),
             terms: template.term_count(),
             bytes: Bytes {
                 total,
@@ -99,21 +105,13 @@ impl Document {
                     centre: component.centre,
                     sigma_hat: component.sigma_hat,
                     length_scale: component.hyperparameters.length_scale,
-                    exponent: component.hyperparameters.exponent,
+                    parameter: component.hyperparameters.parameter,
                     prior_mean: component.hyperparameters.prior_mean,
                     terms: component.terms.len(),
                 })
                 .collect(),
         }
     }
-}
-
-fn kernel(template: &Template<'_>) -> String {
-    let cobra_infer::Kernel::RationalQuadratic(exponent) = template.kernel();
-    let exponent = exponent
-        .fixed()
-        .map_or_else(|| "free".to_owned(), |fixed| fixed.to_string());
-    format!("rational quadratic, exponent {exponent}")
 }
 
 fn text(document: &Document) -> String {
@@ -156,7 +154,7 @@ fn text(document: &Document) -> String {
          components  {}\n\
          terms       {}\n\
          size        {} bytes: {} terms, {} component records, {} the rest\n\
-         cost        kernel evaluations a point: at most {} (nearest), {} (max)\n\n{}",
+         cost        kernel evaluations a point: at most {} (nearest), {} (max, soft)\n\n{}",
         document.name,
         document.radius,
         document.diameter,

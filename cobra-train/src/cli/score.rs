@@ -8,7 +8,7 @@ use super::template_file;
 use super::terminal::Terminal;
 use cobra_infer::{
     Assignment, Camera, Correspondence, Decision, Likelihood, Report, Settings, Sigma, Template,
-    score,
+    Threshold, score,
 };
 use cobra_train::input::{
     CorrespondenceOptions, Estimate, doubt_point_scale, doubt_pose_scale, read_camera,
@@ -115,6 +115,7 @@ fn settings(arguments: &ScoreArguments, template: &Template<'_>) -> Settings {
                 noise: arguments.noise * millimetre,
             },
         },
+        threshold: arguments.threshold.into(),
         minimum_points: arguments.min_points,
         ..Settings::for_template(template, delta)
     }
@@ -266,6 +267,7 @@ struct Document<'a> {
     likelihood: &'static str,
     assignment: &'static str,
     delta: f32,
+    threshold: &'static str,
     /// σ for all components, where `--sigma-hat` gives it.
     sigma: Option<f32>,
     /// σ_m, where σ is the template's.
@@ -304,8 +306,14 @@ fn document<'a>(
         assignment: match settings.assignment {
             Assignment::Nearest => "nearest",
             Assignment::Maximum => "max",
+            Assignment::Soft => "soft",
         },
         delta: settings.delta,
+        threshold: match settings.threshold {
+            Threshold::Paper => "paper",
+            Threshold::Mean => "mean",
+            Threshold::Worst => "worst",
+        },
         sigma: match settings.sigma {
             Sigma::Fixed(sigma) => Some(sigma),
             Sigma::Template { .. } => None,

@@ -1,12 +1,12 @@
 //! `cobra train`: a mesh becomes a template file.
 
-use super::args::TrainArguments;
+use super::args::{KernelArgument, TrainArguments};
 use super::failure::Failure;
 use super::outputs;
 use super::report::{JsonTarget, plural};
 use super::terminal::Terminal;
 use cobra_infer::template::NAME_CAPACITY;
-use cobra_infer::{Kernel, Template, Unit};
+use cobra_infer::{Exponent, Model, Template, Unit};
 use cobra_train::output::write_whole;
 use cobra_train::progress::Progress;
 use cobra_train::reference::read_reference_points;
@@ -84,9 +84,22 @@ fn options(arguments: &TrainArguments) -> Result<TrainOptions, Failure> {
     options.points = arguments.points as usize;
     options.test_points = arguments.test_points as usize;
     options.reference_points = reference_points;
-    options.fit.kernel = Kernel::RationalQuadratic(arguments.exponent.into());
+    options.fit.model = model(arguments)?;
     options.seed = arguments.seed;
     Ok(options)
+}
+
+fn model(arguments: &TrainArguments) -> Result<Model, Failure> {
+    if arguments.exponent.is_some() && arguments.kernel != KernelArgument::Rq {
+        return Err(Failure::Usage(
+            "--exponent is the rational quadratic's: it goes with --kernel rq alone".to_owned(),
+        ));
+    }
+    let exponent = arguments.exponent.map_or(Exponent::One, Exponent::from);
+    Ok(Model {
+        metric: arguments.metric.into(),
+        kernel: arguments.kernel.with_exponent(exponent),
+    })
 }
 
 /// The file that `--reference-points` names, unless it says `kmeans`.
@@ -136,6 +149,8 @@ struct Document<'a> {
     points: usize,
     test_points: usize,
     seed: u64,
+    metric: &'static str,
+    kernel: &'static str,
     components: Vec<ComponentDocument>,
 }
 
@@ -146,7 +161,8 @@ struct ComponentDocument {
     terms: usize,
     test_points: usize,
     length_scale: f64,
-    exponent: f64,
+    /// The kernel's parameter besides, such as the exponent; 1 where it has none.
+    parameter: f64,
     prior_mean: f32,
     /// Of the unit sphere.
     signal_variance: f64,
@@ -173,6 +189,8 @@ fn document<'a>(
         points: options.points,
         test_points: options.test_points,
         seed: options.seed,
+        metric: template.metric().name(),
+        kernel: template.kernel().name(),
         components: template
             .components()
             .zip(&trained.components)
@@ -185,7 +203,7 @@ fn document<'a>(
                     terms: component.terms.len(),
                     test_points: trained.test_points,
                     length_scale: h.length_scale,
-                    exponent: h.exponent,
+                    parameter: h.parameter,
                     prior_mean: component.hyperparameters.prior_mean,
                     signal_variance: h.signal_variance,
                     noise_variance: h.noise_variance,

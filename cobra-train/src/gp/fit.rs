@@ -1,9 +1,9 @@
 //! Fitting one component: from points around a reference point to directions and weights.
 
 use super::cholesky::{Cholesky, NotPositiveDefinite};
-use super::likelihood::{covariance, gram, squared_distances};
+use super::gram::{Coordinates, coordinates, covariances, gram};
 use super::optimise::{Learned, OptimiserError, learn};
-use cobra_infer::Kernel;
+use cobra_infer::Model;
 use nalgebra::{Point3, UnitVector3};
 use rand::Rng;
 use rand::seq::index;
@@ -26,8 +26,8 @@ pub enum PriorMean {
 /// How a component is fitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitOptions {
-    /// The covariance function.
-    pub kernel: Kernel,
+    /// Metric and covariance function.
+    pub model: Model,
     /// The prior mean.
     pub prior_mean: PriorMean,
     /// How many points hyperparameters are learned on.
@@ -96,7 +96,8 @@ pub fn fit(
         prior_mean,
     } = data;
     let h = &learned.hyperparameters;
-    let factor = Cholesky::new(gram(options.kernel, h, &squared_distances(&directions)))?;
+    let points = Coordinates::new(options.model.metric, &directions);
+    let factor = Cholesky::new(gram(options.model.kernel, h, &points))?;
     let weights = factor
         .solve(&targets)
         .into_iter()
@@ -127,22 +128,16 @@ pub fn explained(
     let data = TrainingData::new(centre, points, options.prior_mean)?;
     let (few, learned) = data.learn(options, rng)?;
     let h = &learned.hyperparameters;
-    let squared = squared_distances(&few.directions);
-    let weights = Cholesky::new(gram(options.kernel, h, &squared))?.solve(&few.targets);
+    let Model { metric, kernel } = options.model;
+    let points = Coordinates::new(metric, &few.directions);
+    let weights = Cholesky::new(gram(kernel, h, &points))?.solve(&few.targets);
     Ok(data
         .directions
         .iter()
         .zip(&data.targets)
         .filter(|(direction, target)| {
-            let mean: f64 = few
-                .directions
-                .iter()
-                .zip(&weights)
-                .map(|(other, weight)| {
-                    let s = (direction.into_inner() - other.into_inner()).norm_squared();
-                    weight * h.signal_variance * covariance(options.kernel, h, s)
-                })
-                .sum();
+            let row = covariances(kernel, h, &points, coordinates(metric, direction));
+            let mean: f64 = row.iter().zip(&weights).map(|(k, weight)| weight * k).sum();
             (*target - mean).abs() <= tolerance
         })
         .count())
@@ -188,8 +183,8 @@ impl TrainingData {
             targets: subset.iter().map(|&i| self.targets[i]).collect(),
             prior_mean: self.prior_mean,
         };
-        let squared = squared_distances(&few.directions);
-        let learned = learn(options.kernel, &squared, &few.targets)?;
+        let points = Coordinates::new(options.model.metric, &few.directions);
+        let learned = learn(options.model.kernel, &points, &few.targets)?;
         Ok((few, learned))
     }
 }

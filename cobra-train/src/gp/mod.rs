@@ -5,13 +5,12 @@
 
 mod cholesky;
 mod fit;
+mod gram;
 mod likelihood;
 mod optimise;
 
 pub use cholesky::{Cholesky, NotPositiveDefinite};
 pub use fit::{FitError, FitOptions, FittedGp, LARGEST_GP, PriorMean, explained, fit};
-pub use likelihood::{
-    Hyperparameters, LikelihoodAndGradient, covariance, gram, negative_log_marginal_likelihood,
-    squared_distances,
-};
+pub use gram::{Coordinates, Hyperparameters, coordinates, covariance, covariances, gram};
+pub use likelihood::{LikelihoodAndGradient, negative_log_marginal_likelihood};
 pub use optimise::{Learned, NOISE_FLOOR, OptimiserError, StopReason, learn};

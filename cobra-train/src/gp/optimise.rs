@@ -3,13 +3,13 @@
 //! Owns the start, the box and the stopping rule. The box keeps the search where the data can say
 //! something: a sphere, for one, has no finite best length scale.
 
-use super::likelihood::{Hyperparameters, negative_log_marginal_likelihood};
+use super::gram::{Coordinates, Hyperparameters};
+use super::likelihood::negative_log_marginal_likelihood;
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, Constraints, CostFunction, Executor,
     FirstOrderState, Gradient, Lbfgsb, Termination,
 };
-use cobra_infer::kernel::{Exponent, Kernel};
-use faer::Mat;
+use cobra_infer::kernel::Kernel;
 use std::convert::Infallible;
 
 /// The smallest noise variance, in units of the unit sphere: below it, weights grow so large that
@@ -25,7 +25,28 @@ const GRADIENT_TOLERANCE: f64 = 1e-4;
 const LENGTH_SCALE_LOG: (f64, f64) = (-5.0, 3.0);
 const SIGNAL_VARIANCE_LOG: (f64, f64) = (-14.0, 6.0);
 const NOISE_VARIANCE_LOG_MOST: f64 = -2.0;
-const EXPONENT_LOG: (f64, f64) = (-4.0, 3.0);
+
+/// Where the search for a kernel's parameter starts, and its box, in logarithms.
+struct ParameterRange {
+    start: f64,
+    lower: f64,
+    upper: f64,
+}
+
+fn parameter_range(kernel: Kernel) -> Option<ParameterRange> {
+    let (start, lower, upper) = match kernel {
+        _ if kernel.fixed_parameter().is_some() => return None,
+        // One turn, of coordinates that are angles or differ by at most 2.
+        Kernel::Periodic => (std::f64::consts::TAU.ln(), -2.0, 5.0),
+        Kernel::Polynomial => (0.0, -7.0, 5.0),
+        _ => (0.0, -4.0, 3.0),
+    };
+    Some(ParameterRange {
+        start,
+        lower,
+        upper,
+    })
+}
 
 /// Why learning stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,31 +79,32 @@ pub struct OptimiserError(String);
 
 /// Minimises L(θ)/n over the box, from a start that the targets' variance gives.
 ///
-/// `squared` holds the squared distances of the directions, `y` the targets, at least one.
+/// `points` are the directions, `y` the targets, at least one.
 ///
 /// # Errors
 /// [`OptimiserError`] when the optimiser refuses the problem.
-pub fn learn(kernel: Kernel, squared: &Mat<f64>, y: &[f64]) -> Result<Learned, OptimiserError> {
+pub fn learn(kernel: Kernel, points: &Coordinates, y: &[f64]) -> Result<Learned, OptimiserError> {
     let n = y.len() as f64;
     let mean_square = (y.iter().map(|y| y * y).sum::<f64>() / n).max(1e-8);
-    let mut start = vec![0.5_f64.ln(), mean_square.ln(), (1e-3 * mean_square).ln()];
-    let mut lower = vec![LENGTH_SCALE_LOG.0, SIGNAL_VARIANCE_LOG.0, NOISE_FLOOR.ln()];
-    let mut upper = vec![
-        LENGTH_SCALE_LOG.1,
-        SIGNAL_VARIANCE_LOG.1,
-        NOISE_VARIANCE_LOG_MOST,
-    ];
-    if kernel == Kernel::RationalQuadratic(Exponent::Free) {
-        start.push(0.0);
-        lower.push(EXPONENT_LOG.0);
-        upper.push(EXPONENT_LOG.1);
+    let mut start = vec![mean_square.ln(), (1e-3 * mean_square).ln()];
+    let mut lower = vec![SIGNAL_VARIANCE_LOG.0, NOISE_FLOOR.ln()];
+    let mut upper = vec![SIGNAL_VARIANCE_LOG.1, NOISE_VARIANCE_LOG_MOST];
+    if kernel.fixed_length_scale().is_none() {
+        start.insert(0, 0.5_f64.ln());
+        lower.insert(0, LENGTH_SCALE_LOG.0);
+        upper.insert(0, LENGTH_SCALE_LOG.1);
+    }
+    if let Some(range) = parameter_range(kernel) {
+        start.push(range.start);
+        lower.push(range.lower);
+        upper.push(range.upper);
     }
     for ((value, low), high) in start.iter_mut().zip(&lower).zip(&upper) {
         *value = value.clamp(*low, *high);
     }
     let problem = MarginalLikelihood {
         kernel,
-        squared,
+        points,
         y,
         lower,
         upper,
@@ -105,21 +127,22 @@ pub fn learn(kernel: Kernel, squared: &Mat<f64>, y: &[f64]) -> Result<Learned, O
 }
 
 fn unpack(kernel: Kernel, logarithms: &[f64]) -> Hyperparameters {
-    let Kernel::RationalQuadratic(exponent) = kernel;
+    let mut values = logarithms.iter().map(|logarithm| logarithm.exp());
+    let mut next = |fixed: Option<f32>| match fixed {
+        Some(fixed) => f64::from(fixed),
+        None => values.next().unwrap_or(1.0),
+    };
     Hyperparameters {
-        length_scale: logarithms[0].exp(),
-        signal_variance: logarithms[1].exp(),
-        noise_variance: logarithms[2].exp().max(NOISE_FLOOR),
-        exponent: match exponent.fixed() {
-            Some(fixed) => f64::from(fixed),
-            None => logarithms[3].exp(),
-        },
+        length_scale: next(kernel.fixed_length_scale()),
+        signal_variance: next(None),
+        noise_variance: next(None).max(NOISE_FLOOR),
+        parameter: next(kernel.fixed_parameter()),
     }
 }
 
 struct MarginalLikelihood<'a> {
     kernel: Kernel,
-    squared: &'a Mat<f64>,
+    points: &'a Coordinates,
     y: &'a [f64],
     lower: Vec<f64>,
     upper: Vec<f64>,
@@ -149,7 +172,7 @@ impl Gradient for MarginalLikelihood<'_> {
             match negative_log_marginal_likelihood(
                 self.kernel,
                 &hyperparameters,
-                self.squared,
+                self.points,
                 self.y,
             ) {
                 Ok(found) => (

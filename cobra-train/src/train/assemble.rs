@@ -3,9 +3,9 @@
 use super::TrainOptions;
 use crate::gp::FittedGp;
 use crate::surface::BoundingSphere;
+use cobra_infer::EncodeError;
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
 use cobra_infer::template::{ComponentSource, TemplateSource, encode, encoded_len};
-use cobra_infer::{EncodeError, Metric};
 use nalgebra::Point3;
 
 /// A fitted component in the mesh's unit and in the template's precision.
@@ -23,7 +23,7 @@ impl ScaledComponent {
             centre: sphere.denormalise(centre).cast::<f32>().coords.into(),
             hyperparameters: Hyperparameters {
                 length_scale: h.length_scale as f32,
-                exponent: h.exponent as f32,
+                parameter: h.parameter as f32,
                 prior_mean: (sphere.radius * fitted.prior_mean) as f32,
             },
             directions: fitted
@@ -59,6 +59,7 @@ impl Frame<'_> {
             .map(|(component, sigma_hat)| ComponentSource {
                 centre: component.centre,
                 sigma_hat: *sigma_hat,
+                precision: None,
                 hyperparameters: component.hyperparameters,
                 directions: &component.directions,
                 weights: &component.weights,
@@ -70,8 +71,7 @@ impl Frame<'_> {
             centre: self.sphere.centre.cast::<f32>().coords.into(),
             radius: self.sphere.radius as f32,
             diameter: self.diameter as f32,
-            metric: Metric::Chord,
-            kernel: self.options.fit.kernel,
+            model: self.options.fit.model,
             components: &components,
         };
         let mut bytes = vec![0; encoded_len(&source)];

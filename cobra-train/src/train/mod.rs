@@ -12,7 +12,9 @@ use crate::random::{Purpose, stream};
 use crate::reference::{self, ClusterError};
 use crate::surface::{BoundingSphere, Mesh, RayCaster, SampleError, sample_visible};
 use assemble::{Frame, ScaledComponent};
-use cobra_infer::{EncodeError, Exponent, Kernel, ScoreError, Template, TemplateError, Unit};
+use cobra_infer::{
+    EncodeError, Exponent, Kernel, Model, ScoreError, Template, TemplateError, Unit,
+};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
@@ -65,7 +67,7 @@ impl TrainOptions {
             test_points: 30_000,
             reference_points: ReferencePoints::KMeans { components: 16 },
             fit: FitOptions {
-                kernel: Kernel::RationalQuadratic(Exponent::One),
+                model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
                 prior_mean: PriorMean::Average,
                 subset: 300,
             },
