@@ -4,7 +4,7 @@
 //! files record what was released, and training again would hide that something changed.
 //! `tests/tests/golden.rs` says when one may be replaced.
 
-use cobra_infer::{Exponent, Kernel, Template};
+use cobra_infer::{Exponent, Kernel, Metric, Model, Smoothness, Template, UnitDirection};
 use cobra_tests::golden::{case, decision_name, report_bits, score};
 use cobra_train::demo::mechanical_part;
 use cobra_train::progress::Silent;
@@ -13,12 +13,113 @@ use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Name, exponent, components, training points.
-const TEMPLATES: [(&str, Exponent, usize, usize); 3] = [
-    ("v1-exponent-one", Exponent::One, 4, 200),
-    ("v1-exponent-half", Exponent::Half, 3, 150),
-    ("v1-exponent-free", Exponent::Free, 2, 101),
+const fn chord(kernel: Kernel) -> Model {
+    Model::chord(kernel)
+}
+
+const fn angles(kernel: Kernel) -> Model {
+    Model {
+        metric: Metric::Angles,
+        kernel,
+    }
+}
+
+const ONE: Kernel = Kernel::RationalQuadratic(Exponent::One);
+
+/// Name, model, components, training points.
+const TEMPLATES: [(&str, Model, usize, usize); 13] = [
+    ("v1-exponent-one", chord(ONE), 4, 200),
+    (
+        "v1-exponent-half",
+        chord(Kernel::RationalQuadratic(Exponent::Half)),
+        3,
+        150,
+    ),
+    (
+        "v1-exponent-free",
+        chord(Kernel::RationalQuadratic(Exponent::Free)),
+        2,
+        101,
+    ),
+    ("v1-radial-basis", chord(Kernel::RadialBasis), 3, 90),
+    (
+        "v1-matern-half",
+        chord(Kernel::Matern(Smoothness::Half)),
+        3,
+        90,
+    ),
+    (
+        "v1-matern-three-halves",
+        chord(Kernel::Matern(Smoothness::ThreeHalves)),
+        2,
+        61,
+    ),
+    (
+        "v1-matern-five-halves",
+        chord(Kernel::Matern(Smoothness::FiveHalves)),
+        2,
+        61,
+    ),
+    ("v1-linear", chord(Kernel::Linear), 4, 60),
+    ("v1-polynomial", chord(Kernel::Polynomial), 4, 60),
+    ("v1-periodic", chord(Kernel::Periodic), 3, 90),
+    ("v1-angles", angles(ONE), 3, 90),
+    (
+        "v1-angles-matern-three-halves",
+        angles(Kernel::Matern(Smoothness::ThreeHalves)),
+        2,
+        61,
+    ),
+    ("v1-angles-periodic", angles(Kernel::Periodic), 2, 61),
 ];
+
+/// Those that were recorded before there was a soft assignment or another threshold than the
+/// paper's: these stand in files of their own.
+const FIRST: usize = 3;
+
+/// What a file of vectors goes through.
+struct Rules {
+    assignments: &'static [&'static str],
+    /// σ's kind and value, pose, which of the counts, threshold.
+    settings: &'static [(&'static str, f32, usize, usize, &'static str)],
+}
+
+const FIRST_RULES: Rules = Rules {
+    assignments: &["nearest", "maximum"],
+    settings: &[
+        ("template", 0.0, 0, 0, ""),
+        ("template", 1.5, 0, 1, ""),
+        ("template", 1.5, 1, 1, ""),
+        ("fixed", 2.5, 1, 0, ""),
+        ("fixed", 1e-3, 1, 1, ""),
+        ("template", 0.0, 2, 1, ""),
+        ("template", 1.5, 0, 2, ""),
+        ("template", 1.5, 0, 3, ""),
+    ],
+};
+
+const SOFT_RULES: Rules = Rules {
+    assignments: &["soft"],
+    settings: FIRST_RULES.settings,
+};
+
+const THRESHOLD_RULES: Rules = Rules {
+    assignments: &["nearest", "maximum", "soft"],
+    settings: &[
+        ("template", 1.5, 1, 1, " mean"),
+        ("fixed", 2.5, 1, 0, " worst"),
+    ],
+};
+
+const ALL_RULES: Rules = Rules {
+    assignments: &["nearest", "maximum", "soft"],
+    settings: &[
+        ("template", 0.0, 0, 0, ""),
+        ("template", 1.5, 1, 1, " mean"),
+        ("fixed", 2.5, 1, 1, " worst"),
+        ("template", 1.5, 0, 3, ""),
+    ],
+};
 
 const CAMERA: [f32; 9] = [900.0, 0.5, 639.5, 0.0, 905.0, 479.5, 0.0, 0.0, 1.0];
 
@@ -35,35 +136,41 @@ const ON_PART: usize = 24;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
-    for (name, exponent, components, points) in TEMPLATES {
-        let template = folder.join(name).with_extension("cobra");
+    for (index, (name, model, components, points)) in TEMPLATES.into_iter().enumerate() {
+        let template = folder.join(format!("{name}.cobra"));
         if !template.exists() {
-            std::fs::write(&template, trained(exponent, components, points)?)?;
+            std::fs::write(&template, trained(model, components, points)?)?;
             println!("made {}", template.display());
         }
-        let vectors = folder.join(name).with_extension("txt");
-        if !vectors.exists() {
-            std::fs::write(&vectors, recorded(&std::fs::read(&template)?)?)?;
-            println!("made {}", vectors.display());
+        let files: &[(&str, &[Rules])] = if index < FIRST {
+            &[
+                ("", &[FIRST_RULES]),
+                ("-soft", &[SOFT_RULES, THRESHOLD_RULES]),
+            ]
+        } else {
+            &[("", &[ALL_RULES])]
+        };
+        for (suffix, rules) in files {
+            let vectors = folder.join(format!("{name}{suffix}.txt"));
+            if !vectors.exists() {
+                std::fs::write(&vectors, recorded(&std::fs::read(&template)?, rules)?)?;
+                println!("made {}", vectors.display());
+            }
         }
     }
     Ok(())
 }
 
-fn trained(
-    exponent: Exponent,
-    components: usize,
-    points: usize,
-) -> Result<Vec<u8>, Box<dyn Error>> {
+fn trained(model: Model, components: usize, points: usize) -> Result<Vec<u8>, Box<dyn Error>> {
     let mut options = TrainOptions::new("bracket");
     options.points = points;
     options.test_points = 2000;
     options.reference_points = ReferencePoints::KMeans { components };
-    options.fit.model.kernel = Kernel::RationalQuadratic(exponent);
+    options.fit.model = model;
     Ok(train(&mechanical_part(), &options, &Silent)?.bytes)
 }
 
-fn recorded(bytes: &[u8]) -> Result<String, Box<dyn Error>> {
+fn recorded(bytes: &[u8], rules: &[Rules]) -> Result<String, Box<dyn Error>> {
     let template = Template::from_bytes(bytes)?;
     let mut text = String::from("# The format is that of `cobra_tests::golden`.\n");
     line(&mut text, "camera", &CAMERA)?;
@@ -75,45 +182,49 @@ fn recorded(bytes: &[u8]) -> Result<String, Box<dyn Error>> {
         line(&mut text, "correspondence", correspondence)?;
     }
     let counts = [sound.len(), ON_PART, 3, sound.len() + BROKEN.len()];
-    for assignment in ["nearest", "maximum"] {
-        for likelihood in ["peak", "density"] {
-            for (sigma, pose, count) in [
-                (("template", 0.0), 0, counts[0]),
-                (("template", 1.5), 0, counts[1]),
-                (("template", 1.5), 1, counts[1]),
-                (("fixed", 2.5), 1, counts[0]),
-                (("fixed", 1e-3), 1, counts[1]),
-                (("template", 0.0), 2, counts[1]),
-                (("template", 1.5), 0, counts[2]),
-                (("template", 1.5), 0, counts[3]),
-            ] {
-                let (kind, value) = (sigma.0, f32::to_bits(sigma.1));
-                let delta = 2.0_f32.to_bits();
-                let words = format!(
-                    "{assignment} {likelihood} {kind} {value:08x} {delta:08x} 10 {pose} {count}"
-                );
-                let case = case(&mut words.split_ascii_whitespace()).ok_or("case")?;
-                writeln!(text, "case {words}\nlikelihoods{}", {
-                    let mut likelihoods = String::new();
-                    score(&template, &text, &case, |likelihood| {
-                        likelihoods += &format!(" {:08x}", likelihood.to_bits());
-                    })
-                    .ok_or("vectors")?;
-                    likelihoods
-                })?;
-                let report = score(&template, &text, &case, |_| {}).ok_or("vectors")?;
-                let [confidence, threshold, weight_sum, inliers] = report_bits(&report);
-                writeln!(
-                    text,
-                    "report {confidence:08x} {threshold:08x} {weight_sum:08x} {inliers:08x} {} {} {}",
-                    report.points,
-                    report.behind_camera,
-                    decision_name(report.decision)
-                )?;
+    for Rules {
+        assignments,
+        settings,
+    } in rules
+    {
+        for assignment in *assignments {
+            for likelihood in ["peak", "density"] {
+                for (kind, value, pose, count, threshold) in *settings {
+                    let (value, delta) = (f32::to_bits(*value), 2.0_f32.to_bits());
+                    let count = counts[*count];
+                    record(
+                        &template,
+                        &mut text,
+                        &format!(
+                            "{assignment} {likelihood} {kind} {value:08x} {delta:08x} 10 {pose} \
+                             {count}{threshold}"
+                        ),
+                    )?;
+                }
             }
         }
     }
     Ok(text)
+}
+
+/// Appends one case and what it comes to.
+fn record(template: &Template<'_>, text: &mut String, words: &str) -> Result<(), Box<dyn Error>> {
+    let case = case(&mut words.split_ascii_whitespace()).ok_or("case")?;
+    let mut likelihoods = String::new();
+    let report = score(template, text, &case, |likelihood| {
+        likelihoods += &format!(" {:08x}", likelihood.to_bits());
+    })
+    .ok_or("vectors")?;
+    let [confidence, threshold, weight_sum, inliers] = report_bits(&report);
+    writeln!(text, "case {words}\nlikelihoods{likelihoods}")?;
+    writeln!(
+        text,
+        "report {confidence:08x} {threshold:08x} {weight_sum:08x} {inliers:08x} {} {} {}",
+        report.points,
+        report.behind_camera,
+        decision_name(report.decision)
+    )?;
+    Ok(())
 }
 
 fn line(text: &mut String, kind: &str, numbers: &[f32]) -> std::fmt::Result {
@@ -136,7 +247,7 @@ fn sound_correspondences(template: &Template<'_>) -> Vec<[f32; 6]> {
                 .iter()
                 .nth(7 * i % component.terms.len())
                 .expect("an index below the length");
-            let u = cobra_infer::gp::UnitDirection::new_unchecked(direction.into());
+            let u = UnitDirection::new_unchecked(unit_vector(template, direction).into());
             let d = component.posterior_mean(template.model(), &u);
             let [x, y, z] = component.centre;
             seen(
@@ -158,6 +269,18 @@ fn sound_correspondences(template: &Template<'_>) -> Vec<[f32; 6]> {
         [700.0, 500.0, 20.0, 20.0, 20.0, 0.0],
     ]);
     all
+}
+
+/// The unit vector of a direction in the metric's coordinates.
+fn unit_vector(template: &Template<'_>, direction: [f32; 3]) -> [f32; 3] {
+    match template.metric() {
+        Metric::Chord => direction,
+        Metric::Angles => {
+            let [phi, theta, _] = direction;
+            let side = phi.sin();
+            [side * theta.cos(), side * theta.sin(), phi.cos()]
+        }
+    }
 }
 
 const BROKEN: [[f32; 6]; 4] = [

@@ -6,33 +6,78 @@
 //! under the new version's name to `make-golden`, and say so in the changelog. Never train these
 //! templates again, and never record their scores again, to make this pass.
 
+use cobra_infer::{Kernel, Metric, Template};
 use cobra_tests::golden::{Mismatch, replay};
 
-const GOLDEN: [(&[u8], &str); 3] = [
-    (
-        include_bytes!("../golden/v1-exponent-one.cobra"),
-        include_str!("../golden/v1-exponent-one.txt"),
+macro_rules! golden {
+    ($template:literal, $vectors:literal, $cases:literal) => {
+        (
+            include_bytes!(concat!("../golden/v1-", $template, ".cobra")).as_slice(),
+            include_str!(concat!("../golden/v1-", $vectors, ".txt")),
+            $cases,
+        )
+    };
+}
+
+/// Template, vectors, and how many cases these hold.
+const GOLDEN: [(&[u8], &str, usize); 16] = [
+    golden!("exponent-one", "exponent-one", 32),
+    golden!("exponent-half", "exponent-half", 32),
+    golden!("exponent-free", "exponent-free", 32),
+    golden!("exponent-one", "exponent-one-soft", 28),
+    golden!("exponent-half", "exponent-half-soft", 28),
+    golden!("exponent-free", "exponent-free-soft", 28),
+    golden!("radial-basis", "radial-basis", 24),
+    golden!("matern-half", "matern-half", 24),
+    golden!("matern-three-halves", "matern-three-halves", 24),
+    golden!("matern-five-halves", "matern-five-halves", 24),
+    golden!("linear", "linear", 24),
+    golden!("polynomial", "polynomial", 24),
+    golden!("periodic", "periodic", 24),
+    golden!("angles", "angles", 24),
+    golden!(
+        "angles-matern-three-halves",
+        "angles-matern-three-halves",
+        24
     ),
-    (
-        include_bytes!("../golden/v1-exponent-half.cobra"),
-        include_str!("../golden/v1-exponent-half.txt"),
-    ),
-    (
-        include_bytes!("../golden/v1-exponent-free.cobra"),
-        include_str!("../golden/v1-exponent-free.txt"),
-    ),
+    golden!("angles-periodic", "angles-periodic", 24),
 ];
 
 #[test]
 fn recorded_templates_score_the_recorded_bits() {
-    for (template, vectors) in GOLDEN {
-        assert_eq!(replay(template, vectors), Ok(32));
+    for (template, vectors, cases) in GOLDEN {
+        assert_eq!(replay(template, vectors), Ok(cases));
+    }
+}
+
+#[test]
+fn every_kernel_metric_assignment_likelihood_and_threshold_is_recorded() {
+    let templates: Vec<Template<'_>> = GOLDEN
+        .iter()
+        .map(|(template, ..)| Template::from_bytes(template).unwrap())
+        .collect();
+    for kernel in Kernel::ALL {
+        assert!(templates.iter().any(|template| template.kernel() == kernel));
+    }
+    for metric in Metric::ALL {
+        assert!(templates.iter().any(|template| template.metric() == metric));
+    }
+    let lines = GOLDEN.iter().flat_map(|(_, vectors, _)| vectors.lines());
+    let cases: Vec<&str> = lines.filter(|line| line.starts_with("case")).collect();
+    for assignment in ["nearest", "maximum", "soft"] {
+        for likelihood in ["peak", "density"] {
+            let words = format!("case {assignment} {likelihood} ");
+            assert!(cases.iter().any(|case| case.starts_with(&words)), "{words}");
+        }
+    }
+    for threshold in [" mean", " worst"] {
+        assert!(cases.iter().any(|case| case.ends_with(threshold)));
     }
 }
 
 #[test]
 fn the_records_hold_every_kind_of_decision_that_finite_weights_allow() {
-    let lines = GOLDEN.iter().flat_map(|(_, vectors)| vectors.lines());
+    let lines = GOLDEN.iter().flat_map(|(_, vectors, _)| vectors.lines());
     let reports: Vec<&str> = lines.filter(|line| line.starts_with("report")).collect();
     for decision in [
         "accept",
@@ -49,7 +94,7 @@ fn the_records_hold_every_kind_of_decision_that_finite_weights_allow() {
 
 #[test]
 fn every_changed_digit_of_a_record_is_noticed() {
-    let (template, vectors) = GOLDEN[0];
+    let (template, vectors, _) = GOLDEN[0];
     let start = vectors.find("\nlikelihoods").unwrap() + 1;
     let end = start + vectors[start..].find("\ncase").unwrap();
     for (place, _) in vectors[start..end].match_indices(|c: char| c.is_ascii_digit()) {
@@ -66,7 +111,7 @@ fn every_changed_digit_of_a_record_is_noticed() {
 
 #[test]
 fn a_golden_template_that_is_damaged_is_not_scored() {
-    for (template, vectors) in GOLDEN {
+    for (template, vectors, _) in GOLDEN {
         let mut changed = template.to_vec();
         let last = changed.len() - 4;
         changed[last] ^= 1;

@@ -21,6 +21,7 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("LEARNED", asserted::LEARNED),
         ("ON_SURFACE", asserted::ON_SURFACE),
         ("REAL_CONFIDENCE", asserted::REAL_CONFIDENCE),
+        ("MONTE_CARLO", asserted::MONTE_CARLO),
         ("EXACT_CONFIDENCE", asserted::EXACT_CONFIDENCE),
         ("ROUNDOFF", promised::ROUNDOFF),
         ("POSTERIOR_MEAN", promised::POSTERIOR_MEAN),
@@ -33,6 +34,9 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("BACK_PROJECTION", promised::BACK_PROJECTION),
         ("DISTANCE", promised::DISTANCE),
         ("TINY_NOISE", promised::TINY_NOISE),
+        ("SOFT", promised::SOFT),
+        ("MOVED", promised::MOVED),
+        ("REORDERED", promised::REORDERED),
     ];
     let rows: Vec<(&str, f64)> = page
         .lines()

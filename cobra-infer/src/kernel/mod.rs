@@ -206,38 +206,44 @@ impl Kernel {
         visitor: V,
     ) -> Option<V::Output> {
         // A build without a kernel would not use what it is called with.
-        let (_l, _p) = (length_scale, parameter);
-        Some(match self {
+        let _ = (&length_scale, &parameter, &visitor);
+        match self {
             #[cfg(feature = "rational-quadratic")]
-            Self::RationalQuadratic(Exponent::One) => visitor.visit(RationalQuadraticOne::new(_l)),
+            Self::RationalQuadratic(Exponent::One) => {
+                Some(visitor.visit(RationalQuadraticOne::new(length_scale)))
+            }
             #[cfg(feature = "rational-quadratic")]
             Self::RationalQuadratic(Exponent::Half) => {
-                visitor.visit(RationalQuadraticHalf::new(_l))
+                Some(visitor.visit(RationalQuadraticHalf::new(length_scale)))
             }
             #[cfg(feature = "rational-quadratic-free")]
             Self::RationalQuadratic(Exponent::Free) => {
-                visitor.visit(RationalQuadraticFree::new(_l, _p))
+                Some(visitor.visit(RationalQuadraticFree::new(length_scale, parameter)))
             }
             #[cfg(feature = "radial-basis")]
-            Self::RadialBasis => visitor.visit(RadialBasis::new(_l)),
+            Self::RadialBasis => Some(visitor.visit(RadialBasis::new(length_scale))),
             #[cfg(feature = "matern")]
-            Self::Matern(Smoothness::Half) => visitor.visit(MaternHalf::new(_l)),
+            Self::Matern(Smoothness::Half) => Some(visitor.visit(MaternHalf::new(length_scale))),
             #[cfg(feature = "matern")]
-            Self::Matern(Smoothness::ThreeHalves) => visitor.visit(MaternThreeHalves::new(_l)),
+            Self::Matern(Smoothness::ThreeHalves) => {
+                Some(visitor.visit(MaternThreeHalves::new(length_scale)))
+            }
             #[cfg(feature = "matern")]
-            Self::Matern(Smoothness::FiveHalves) => visitor.visit(MaternFiveHalves::new(_l)),
+            Self::Matern(Smoothness::FiveHalves) => {
+                Some(visitor.visit(MaternFiveHalves::new(length_scale)))
+            }
             #[cfg(feature = "linear")]
-            Self::Linear => visitor.visit(Linear),
+            Self::Linear => Some(visitor.visit(Linear)),
             #[cfg(feature = "polynomial")]
-            Self::Polynomial => visitor.visit(Polynomial::new(_p)),
+            Self::Polynomial => Some(visitor.visit(Polynomial::new(parameter))),
             #[cfg(feature = "periodic")]
-            Self::Periodic => visitor.visit(Periodic::new(_l, _p)),
+            Self::Periodic => Some(visitor.visit(Periodic::new(length_scale, parameter))),
             #[allow(
                 unreachable_patterns,
-                reason = "reachable in builds that leave kernels out"
+                reason = "builds that leave kernels out reach it"
             )]
-            _ => return None,
-        })
+            _ => None,
+        }
     }
 }
 

@@ -215,7 +215,7 @@ fn a_point_infinitely_far_away_has_no_match() {
     let bytes = Content::small().encode();
     let template = Template::from_bytes(&bytes).unwrap();
     for far in [f32::INFINITY, f32::NAN, f32::MAX, 1e30] {
-        for assignment in [Assignment::Nearest, Assignment::Maximum] {
+        for assignment in [Assignment::Nearest, Assignment::Maximum, Assignment::Soft] {
             let point = [0.0, far, 0.0];
             let found = evaluate(
                 &template,

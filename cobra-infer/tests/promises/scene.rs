@@ -10,11 +10,13 @@ use nalgebra::{Point2, Point3};
 
 pub(crate) const COMPONENTS: usize = 8;
 
-pub(crate) const EVERY_RULE: [(Assignment, Likelihood); 4] = [
+pub(crate) const EVERY_RULE: [(Assignment, Likelihood); 6] = [
     (Assignment::Nearest, Likelihood::Peak),
     (Assignment::Nearest, Likelihood::Density),
     (Assignment::Maximum, Likelihood::Peak),
     (Assignment::Maximum, Likelihood::Density),
+    (Assignment::Soft, Likelihood::Peak),
+    (Assignment::Soft, Likelihood::Density),
 ];
 
 pub(crate) const IDENTITY: [f32; 9] = [1., 0., 0., 0., 1., 0., 0., 0., 1.];

@@ -25,7 +25,7 @@ fn a_perfectly_placed_sphere_scores_one() {
             at([40.0 * turned[0], 40.0 * turned[1], 40.0 * z])
         })
         .collect();
-    for assignment in [Assignment::Nearest, Assignment::Maximum] {
+    for assignment in [Assignment::Nearest, Assignment::Maximum, Assignment::Soft] {
         let settings = Settings {
             assignment,
             ..Settings::with_delta(2.0)

@@ -38,3 +38,14 @@ pub(crate) const DISTANCE: f64 = 1e-6;
 
 /// The threshold under noise whose square would underflow, against that of the noise alone.
 pub(crate) const TINY_NOISE: f64 = 1e-5;
+
+/// A mixed likelihood against the formula in `f64`, absolute; the posterior mean's rounding, over σ.
+pub(crate) const SOFT: f64 = 1e-4;
+
+/// A confidence before and after the object's frame is moved: the directions' rounding times a
+/// steep kernel's slope, over σ.
+pub(crate) const MOVED: f64 = 2e-3;
+
+/// A confidence before and after points or components are reordered, where two components equally
+/// near or likely may swap.
+pub(crate) const REORDERED: f64 = 1e-5;
