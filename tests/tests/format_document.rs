@@ -3,8 +3,8 @@
 
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
 use cobra_infer::template::{
-    ComponentSource, HEADER_LENGTH, MAGIC, NAME_CAPACITY, RECORD_LENGTH, TemplateSource, VERSION,
-    encode, encoded_len, peek_len,
+    ComponentSource, HEADER_LENGTH, MAGIC, NAME_CAPACITY, PRECISION_LENGTH, RECORD_LENGTH,
+    TemplateSource, VERSION, encode, encoded_len, peek_len,
 };
 use cobra_infer::{Exponent, Kernel, Model, Template, Unit, tolerance};
 use nalgebra::Vector3;
@@ -124,9 +124,10 @@ fn the_documented_constants_are_the_codes() {
         format!("## Header\n\n{HEADER_LENGTH} bytes."),
         format!("A record is {RECORD_LENGTH} bytes."),
         format!("bytes in a record: {RECORD_LENGTH} |"),
+        format!("bytes in a factor: {PRECISION_LENGTH} |"),
         format!("| name | {NAME_CAPACITY} bytes |"),
         format!("string, at most {NAME_CAPACITY} bytes"),
-        format!("|‖uᵢ‖² − 1| ≤ {:e}.", tolerance::UNIT_DIRECTION),
+        format!("|‖uᵢ‖² − 1| ≤ {:e},", tolerance::UNIT_DIRECTION),
         format!("length {}, checksum", peek_len(&example()).unwrap()),
     ] {
         assert!(PAGE.contains(&phrase), "the page must say {phrase:?}");

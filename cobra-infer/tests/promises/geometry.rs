@@ -1,10 +1,10 @@
 //! Poses and back-projection: repaired rotations are rotations, and what was projected comes back.
 
 use crate::content::direction;
-use crate::scene::camera;
+use crate::scene::{IDENTITY, camera};
 use crate::tolerance::{BACK_PROJECTION, ORTHONORMAL};
 use cobra_infer::Pose;
-use nalgebra::{Matrix3, Point3, Rotation3};
+use nalgebra::{Matrix3, Point2, Point3, Rotation3};
 use proptest::prelude::*;
 
 fn row_major(matrix: &Matrix3<f32>) -> [f32; 9] {
@@ -72,4 +72,36 @@ fn the_worst_that_can_be_orthonormalised_becomes_a_rotation() {
         let deviation = (r.transpose() * r - Matrix3::identity()).amax();
         assert!(f64::from(deviation) <= ORTHONORMAL, "{deviation:e}");
     }
+}
+
+#[test]
+fn a_measured_depth_puts_a_pixel_back_where_it_was() {
+    let pose =
+        Pose::from_row_major([0.6, -0.8, 0., 0.8, 0.6, 0., 0., 0., 1.], [3., -4., 500.]).unwrap();
+    for point in [[0.0, 0.0, 0.0], [30.0, -20.0, 12.0], [-5.0, 44.0, -60.0]] {
+        let point = Point3::from(point);
+        let seen = pose.to_camera(&point);
+        let pixel = camera().project(&seen).unwrap();
+        let back = camera().back_project_depth(&pose, &pixel, seen.z).unwrap();
+        let error = f64::from((back - point).norm() / seen.coords.norm());
+        assert!(error <= BACK_PROJECTION, "{error:e}");
+        // The depth is along the camera's axis: a point at half of it lies on the same ray.
+        let half = camera()
+            .back_project_depth(&pose, &pixel, 0.5 * seen.z)
+            .unwrap();
+        let again = camera().project(&pose.to_camera(&half)).unwrap();
+        assert!((again - pixel).norm() < 1e-3);
+    }
+}
+
+#[test]
+fn a_depth_that_was_not_measured_puts_nothing_back() {
+    let pose = Pose::from_row_major(IDENTITY, [0.0, 0.0, 500.0]).unwrap();
+    let pixel = Point2::new(320.0, 240.0);
+    for depth in [0.0, -1.0, f32::NAN, f32::INFINITY, f32::MAX] {
+        let found = camera().back_project_depth(&pose, &pixel, depth);
+        assert_eq!(found.is_some(), depth == f32::MAX, "{depth}");
+    }
+    let far = Point2::new(1e9, 240.0);
+    assert_eq!(camera().back_project_depth(&pose, &far, f32::MAX), None);
 }

@@ -11,6 +11,7 @@ mod hostile_input;
 mod invariance;
 mod mixture;
 mod posterior_mean;
+mod precisions;
 mod scene;
 mod sections;
 mod seed;
