@@ -3,7 +3,8 @@
 //! Here and not in the trainer, because the format exists once. What was written is read back and
 //! validated, so that no file is made that a controller would refuse.
 
-use super::error::{EncodeError, Section};
+use super::encode_error::EncodeError;
+use super::error::Section;
 use super::wire::{
     self, ComponentsSection, HEADER_LENGTH, Header, NAME_CAPACITY, ObjectSection, PRECISION_LENGTH,
     PrecisionsSection, RECORD_LENGTH, REQUIRED, SECTION_HEADER_LENGTH, SectionHeader, TermEncoding,

@@ -6,13 +6,15 @@
 //! are needed, so that nothing of a template in flash is copied to RAM.
 
 mod encode;
+mod encode_error;
 mod error;
 mod precision;
 mod validate;
 mod wire;
 
 pub use encode::{ComponentSource, TemplateSource, encode, encoded_len};
-pub use error::{EncodeError, Section, TemplateError};
+pub use encode_error::EncodeError;
+pub use error::{Section, TemplateError};
 pub use precision::Precision;
 pub use wire::{
     HEADER_LENGTH, MAGIC, NAME_CAPACITY, PRECISION_LENGTH, RECORD_LENGTH, VERSION, peek_len,

@@ -33,6 +33,16 @@ pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(),
     if arguments.sigma_hat.is_some() && arguments.noise > 0.0 {
         terminal.warn("--sigma-hat replaces the whole standard deviation: --noise has no effect");
     }
+    if settings.assignment == Assignment::Soft
+        && template.component_count() > 1
+        && !template.has_precisions()
+    {
+        terminal.warn(
+            "the template has no precisions: the weights of a soft assignment hardly differ over \
+             the object, and components that extrapolate dilute every confidence; train with \
+             --reference-points em, or use --assignment nearest",
+        );
+    }
     let jobs = pair(&estimates, &arguments.correspondences, terminal)?;
     if let Some(path) = outputs::json_file(arguments.json.as_ref()) {
         let mut inputs = vec![

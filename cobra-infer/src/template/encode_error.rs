@@ -1,0 +1,65 @@
+//! Why a template could not be written.
+
+use super::error::TemplateError;
+use core::fmt;
+
+/// Why a template could not be written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EncodeError {
+    /// The object's name does not fit.
+    Name {
+        /// Bytes that fit.
+        capacity: usize,
+        /// Bytes there are.
+        found: usize,
+    },
+    /// Some components have a precision and some have none.
+    Precisions,
+    /// A component has not as many directions as weights.
+    TermCount {
+        /// Which component.
+        component: usize,
+        /// How many directions.
+        directions: usize,
+        /// How many weights.
+        weights: usize,
+    },
+    /// More than a file of this format can hold.
+    TooLarge,
+    /// The buffer is too small.
+    Buffer {
+        /// Bytes there are.
+        found: usize,
+    },
+    /// What was written would be refused.
+    Invalid(TemplateError),
+}
+
+impl fmt::Display for EncodeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            EncodeError::Name { capacity, found } => write!(
+                f,
+                "the object's name has {found} bytes, at most {capacity} fit"
+            ),
+            EncodeError::Precisions => {
+                f.write_str("either all components have a precision or none has")
+            }
+            EncodeError::TermCount {
+                component,
+                directions,
+                weights,
+            } => write!(
+                f,
+                "component {component} has {directions} directions and {weights} weights"
+            ),
+            EncodeError::TooLarge => f.write_str("a template cannot exceed 4 GiB"),
+            EncodeError::Buffer { found } => {
+                write!(f, "the template does not fit into {found} bytes")
+            }
+            EncodeError::Invalid(error) => write!(f, "the template would be refused: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for EncodeError {}
