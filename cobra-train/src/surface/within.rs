@@ -16,7 +16,8 @@ use super::raycast::RayCaster;
 use super::sample::SampleError;
 use crate::random::{Purpose, stream};
 
-/// A hit nearer to the reference point than this lies on it and gives no direction (unit sphere).
+/// A hit nearer to the reference point than this lies on it and gives no direction (unit sphere):
+/// rays start that far out.
 const SMALLEST_DISTANCE: f64 = 1e-4;
 
 /// A reference point from which fewer rays than this share hit is given up.
@@ -76,8 +77,9 @@ fn hits_from(
         let directions = fibonacci_sphere(cast);
         rays += directions.len();
         hits.extend(directions.iter().filter_map(|direction| {
-            let hit = caster.cast(origin, &(turn * direction.into_inner()))?;
-            (hit.distance > SMALLEST_DISTANCE).then_some(hit.point)
+            let direction = turn * direction.into_inner();
+            let start = origin + direction * SMALLEST_DISTANCE;
+            Some(caster.cast(&start, &direction)?.point)
         }));
         let rate = hits.len() as f64 / rays as f64;
         if rate < LOWEST_HIT_RATE {
@@ -168,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn hits_on_the_reference_point_itself_are_dropped() {
+    fn rays_pass_through_surface_that_the_reference_point_lies_on() {
         let on_a_face = Point3::new(0.5, 0.1, 0.0);
         let points = sample_from_within(&cube(false), &[on_a_face], 500, 3).unwrap();
         assert_eq!(points.len(), 500);
