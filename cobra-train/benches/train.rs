@@ -5,7 +5,7 @@ mod support;
 use cobra_train::gp;
 use cobra_train::progress::Silent;
 use cobra_train::random::{Purpose, stream};
-use cobra_train::reference::{assign_nearest, kmeans, most_explanatory};
+use cobra_train::reference::{Cluster, kmeans, members, most_explanatory};
 use cobra_train::surface::{RayCaster, sample_visible};
 use cobra_train::train::{PLACEMENTS, TrainOptions, train};
 use criterion::{Criterion, SamplingMode};
@@ -52,14 +52,17 @@ fn bench_steps(table: &mut Table<'_, '_>, object: &Object, size: &Size, options:
             .expect("there are more points than components")
     };
     table.bench("k-means", place);
-    let placements = place();
+    let placements: Vec<Vec<Cluster>> = place()
+        .into_iter()
+        .map(|centres| centres.into_iter().map(Cluster::round).collect())
+        .collect();
     let choose = |placements| {
         most_explanatory(&points, placements, &options.fit, options.seed)
             .expect("there are several placements")
     };
     table.bench("choosing a placement", || choose(placements.clone()));
-    let centres = choose(placements);
-    table.bench("fitting", || fit(&points, &centres, options));
+    let clusters = choose(placements);
+    table.bench("fitting", || fit(&points, &clusters, options));
 }
 
 fn sample(object: &Object, size: &Size) -> Vec<Point3<f64>> {
@@ -72,21 +75,15 @@ fn sample(object: &Object, size: &Size) -> Vec<Point3<f64>> {
         .collect()
 }
 
-fn fit(
-    points: &[Point3<f64>],
-    centres: &[Point3<f64>],
-    options: &TrainOptions,
-) -> Vec<gp::FittedGp> {
-    let mut members = vec![Vec::new(); centres.len()];
-    for (point, label) in points.iter().zip(assign_nearest(points, centres)) {
-        members[label].push(*point);
-    }
-    let fitted = members.par_iter().zip(centres).enumerate();
+fn fit(points: &[Point3<f64>], clusters: &[Cluster], options: &TrainOptions) -> Vec<gp::FittedGp> {
+    let members = members(points, clusters);
+    let fitted = members.par_iter().zip(clusters).enumerate();
     fitted
-        .map(|(component, (members, centre))| {
+        .map(|(component, (members, cluster))| {
             let purpose = Purpose::HyperparameterSubset;
             let mut rng = stream(options.seed, purpose, component as u64);
-            gp::fit(centre, members, &options.fit, &mut rng).expect("both objects can be trained")
+            gp::fit(&cluster.centre(), members, &options.fit, &mut rng)
+                .expect("both objects can be trained")
         })
         .collect()
 }

@@ -6,7 +6,7 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-/// What a stream of random numbers is for.
+/// What a stream of random numbers is for; the order is part of the streams.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Surface points for fitting a template, and the held-out ones that measure σ̂.
@@ -23,6 +23,10 @@ pub enum Purpose {
     HyperparameterSubset,
     /// Simulated pose errors.
     PoseErrors,
+    /// Candidates for Poisson-disk points.
+    PoissonDisks,
+    /// How the directions of rays from reference points are turned, and which hits are kept.
+    RaysFromWithin,
 }
 
 /// The stream for one purpose and index.

@@ -4,6 +4,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use cobra_infer::{Assignment, Exponent, Kernel, Likelihood, Metric, Smoothness, Threshold, Unit};
 use cobra_train::input::Weighting;
+use cobra_train::train::{Overlap, SurfaceSampling};
 use std::path::PathBuf;
 
 /// Global options come after a command's own.
@@ -74,10 +75,12 @@ pub(crate) struct DemoArguments {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "The mesh is sampled as a camera sees it from outside; it need not be closed.\n\n\
+    after_help = "By default the mesh is sampled as cameras see it from outside; it need not be \
+                  closed.\n\n\
                   Examples:\n  cobra train part.ply -o part.cobra\n  cobra train part.stl -o \
                   part.cobra --unit m --components 24 --json -\n  cobra train part.obj -o \
-                  part.cobra --reference-points centres.txt"
+                  part.cobra --reference-points centres.txt\n  cobra train part.ply -o part.cobra \
+                  --reference-points em --sampling poisson"
 )]
 pub(crate) struct TrainArguments {
     /// Mesh file: .ply, .obj or .stl
@@ -95,13 +98,23 @@ pub(crate) struct TrainArguments {
     #[arg(long, value_name = "N", default_value_t = 30_000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) test_points: u32,
 
-    /// `kmeans`, or a text file with x y z a line in the mesh's frame and unit
-    #[arg(long, value_name = "kmeans|FILE", default_value = "kmeans")]
+    /// How training points are drawn; test points are always what cameras see
+    #[arg(long, value_enum, default_value_t = SamplingArgument::Cameras)]
+    pub(crate) sampling: SamplingArgument,
+
+    /// `kmeans`, `em` (a mixture of Gaussians), or a text file with x y z a line in the mesh's frame
+    /// and unit
+    #[arg(long, value_name = "kmeans|em|FILE", default_value = "kmeans")]
     pub(crate) reference_points: PathBuf,
 
     /// Components (reference points); with a file, the number of its lines [default: 16]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) components: Option<u32>,
+
+    /// Train each component on all points within (1 + SHARE) times its own points' largest distance
+    /// from its reference point, as the authors do; none: on its own points
+    #[arg(long, value_name = "none|SHARE", default_value = "none", value_parser = overlap)]
+    pub(crate) overlap: Overlap,
 
     /// Covariance function: rational quadratic, radial basis function, Matern of smoothness 1/2,
     /// 3/2 or 5/2, linear, polynomial of degree 3, periodic
@@ -326,6 +339,26 @@ impl From<MetricArgument> for Metric {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum SamplingArgument {
+    /// What cameras around the object see
+    Cameras,
+    /// Evenly spread on all faces, also on those that no camera sees
+    Poisson,
+    /// What rays from the reference points hit first
+    ReferencePoints,
+}
+
+impl From<SamplingArgument> for SurfaceSampling {
+    fn from(sampling: SamplingArgument) -> Self {
+        match sampling {
+            SamplingArgument::Cameras => SurfaceSampling::Cameras,
+            SamplingArgument::Poisson => SurfaceSampling::Poisson,
+            SamplingArgument::ReferencePoints => SurfaceSampling::ReferencePoints,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum ExponentArgument {
     #[value(name = "1")]
     One,
@@ -405,6 +438,14 @@ impl From<AssignmentArgument> for Assignment {
             AssignmentArgument::Max => Assignment::Maximum,
             AssignmentArgument::Soft => Assignment::Soft,
         }
+    }
+}
+
+fn overlap(text: &str) -> Result<Overlap, String> {
+    match text.parse::<f64>() {
+        _ if text == "none" => Ok(Overlap::None),
+        Ok(share) if share.is_finite() && share >= 0.0 => Ok(Overlap::Ball { share }),
+        _ => Err("expected `none` or a number of at least 0, such as 0.05".to_owned()),
     }
 }
 

@@ -11,12 +11,16 @@ use cobra_train::output::write_whole;
 use cobra_train::progress::Progress;
 use cobra_train::reference::read_reference_points;
 use cobra_train::surface::{Mesh, read_mesh};
-use cobra_train::train::{ReferencePoints, TrainOptions, Trained, train};
+use cobra_train::train::{Overlap, ReferencePoints, SurfaceSampling, TrainOptions, Trained, train};
 use serde::Serialize;
 use std::path::Path;
 
 /// Components unless the user says otherwise.
 const COMPONENTS: u32 = 16;
+
+/// What `--reference-points` and the JSON call the ways of clustering.
+const KMEANS: &str = "kmeans";
+const EM: &str = "em";
 
 /// Objects smaller or larger than this are more likely in another unit, in millimetres.
 const PLAUSIBLE_DIAMETER: std::ops::RangeInclusive<f64> = 2.0..=20_000.0;
@@ -61,29 +65,13 @@ fn options(arguments: &TrainArguments) -> Result<TrainOptions, Failure> {
         Some(name) => name.clone(),
         None => shortened(&stem.to_string_lossy()),
     };
-    let reference_points = match centres_file(arguments) {
-        None => ReferencePoints::KMeans {
-            components: arguments.components.unwrap_or(COMPONENTS) as usize,
-        },
-        Some(file) => {
-            let points = read_reference_points(file)?;
-            match arguments.components {
-                Some(components) if components as usize != points.len() => {
-                    return Err(Failure::Usage(format!(
-                        "--components {components}, but {} has {}",
-                        file.display(),
-                        plural(points.len(), "reference point")
-                    )));
-                }
-                _ => ReferencePoints::Given(points),
-            }
-        }
-    };
     let mut options = TrainOptions::new(name);
     options.unit = arguments.unit.into();
     options.points = arguments.points as usize;
     options.test_points = arguments.test_points as usize;
-    options.reference_points = reference_points;
+    options.sampling = arguments.sampling.into();
+    options.reference_points = reference_points(arguments)?;
+    options.overlap = arguments.overlap;
     options.fit.model = model(arguments)?;
     options.seed = arguments.seed;
     Ok(options)
@@ -102,9 +90,30 @@ fn model(arguments: &TrainArguments) -> Result<Model, Failure> {
     })
 }
 
-/// The file that `--reference-points` names, unless it says `kmeans`.
+fn reference_points(arguments: &TrainArguments) -> Result<ReferencePoints, Failure> {
+    let components = arguments.components.unwrap_or(COMPONENTS) as usize;
+    let Some(file) = centres_file(arguments) else {
+        return Ok(if arguments.reference_points == Path::new(EM) {
+            ReferencePoints::Em { components }
+        } else {
+            ReferencePoints::KMeans { components }
+        });
+    };
+    let points = read_reference_points(file)?;
+    match arguments.components {
+        Some(components) if components as usize != points.len() => Err(Failure::Usage(format!(
+            "--components {components}, but {} has {}",
+            file.display(),
+            plural(points.len(), "reference point")
+        ))),
+        _ => Ok(ReferencePoints::Given(points)),
+    }
+}
+
+/// The file that `--reference-points` names, unless it names a way of clustering.
 fn centres_file(arguments: &TrainArguments) -> Option<&Path> {
-    Some(arguments.reference_points.as_path()).filter(|path| *path != Path::new("kmeans"))
+    let path = arguments.reference_points.as_path();
+    Some(path).filter(|path| ![KMEANS, EM].iter().any(|name| *path == Path::new(name)))
 }
 
 fn describe(mesh: &Mesh, unit: Unit, terminal: &Terminal) {
@@ -146,8 +155,12 @@ struct Document<'a> {
     diameter: f32,
     radius: f32,
     bytes: usize,
+    sampling: &'static str,
     points: usize,
     test_points: usize,
+    reference_points: &'static str,
+    /// `null` without overlap.
+    overlap: Option<f64>,
     seed: u64,
     metric: &'static str,
     kernel: &'static str,
@@ -186,8 +199,22 @@ fn document<'a>(
         diameter: template.diameter(),
         radius: template.radius(),
         bytes: trained.bytes.len(),
+        sampling: match options.sampling {
+            SurfaceSampling::Cameras => "cameras",
+            SurfaceSampling::Poisson => "poisson",
+            SurfaceSampling::ReferencePoints => "reference-points",
+        },
         points: options.points,
         test_points: options.test_points,
+        reference_points: match options.reference_points {
+            ReferencePoints::KMeans { .. } => KMEANS,
+            ReferencePoints::Em { .. } => EM,
+            ReferencePoints::Given(_) => "given",
+        },
+        overlap: match options.overlap {
+            Overlap::None => None,
+            Overlap::Ball { share } => Some(share),
+        },
         seed: options.seed,
         metric: template.metric().name(),
         kernel: template.kernel().name(),

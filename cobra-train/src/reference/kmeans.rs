@@ -4,7 +4,7 @@
 //! k-means++: the advantages of careful seeding, 2007 (with the greedy choice among a few draws
 //! that the authors recommend in their section on experiments).
 
-use super::nearest_to_each;
+use super::membership::nearest_to_each;
 use crate::random::{Purpose, stream};
 use nalgebra::{Point3, Vector3};
 use rand::{Rng, RngExt};

@@ -5,7 +5,7 @@
 //! Fitting each component to a few of its points and counting which of the others lie within the
 //! paper's τ of the prediction sees exactly that.
 
-use super::assign_nearest;
+use super::{Cluster, members};
 use crate::evaluate::TAU;
 use crate::gp::{self, FitError, FitOptions};
 use crate::random::{Purpose, stream};
@@ -17,15 +17,15 @@ const SUBSET: usize = 100;
 
 /// The placement under which most points are explained, the first of equals.
 ///
-/// Each point belongs to its nearest reference point. `None` when there is no placement; a
-/// placement that leaves a reference point without points is the last choice.
+/// Each point belongs to one cluster ([`members`]). `None` when there is no placement; a placement
+/// that leaves a cluster without points is the last choice.
 #[must_use]
 pub fn most_explanatory(
     points: &[Point3<f64>],
-    placements: Vec<Vec<Point3<f64>>>,
+    placements: Vec<Vec<Cluster>>,
     options: &FitOptions,
     seed: u64,
-) -> Option<Vec<Point3<f64>>> {
+) -> Option<Vec<Cluster>> {
     if placements.len() < 2 {
         return placements.into_iter().next();
     }
@@ -35,30 +35,26 @@ pub fn most_explanatory(
     };
     let counts: Vec<usize> = placements
         .par_iter()
-        .map(|centres| count(points, centres, &options, seed).unwrap_or(0))
+        .map(|clusters| count(points, clusters, &options, seed).unwrap_or(0))
         .collect();
     placements
         .into_iter()
         .zip(counts)
         .reduce(|best, next| if next.1 > best.1 { next } else { best })
-        .map(|(centres, _)| centres)
+        .map(|(clusters, _)| clusters)
 }
 
 /// How many of the points are explained, over all components.
 fn count(
     points: &[Point3<f64>],
-    centres: &[Point3<f64>],
+    clusters: &[Cluster],
     options: &FitOptions,
     seed: u64,
 ) -> Result<usize, FitError> {
-    let mut members = vec![Vec::new(); centres.len()];
-    for (point, label) in points.iter().zip(assign_nearest(points, centres)) {
-        members[label].push(*point);
-    }
     let mut total = 0;
-    for (index, (centre, members)) in centres.iter().zip(&members).enumerate() {
+    for (index, (cluster, own)) in clusters.iter().zip(members(points, clusters)).enumerate() {
         let mut rng = stream(seed, Purpose::Selection, index as u64);
-        total += gp::explained(centre, members, TAU, options, &mut rng)?;
+        total += gp::explained(&cluster.centre(), &own, TAU, options, &mut rng)?;
     }
     Ok(total)
 }

@@ -62,6 +62,21 @@ pub enum SampleError {
         /// How many rays were cast.
         rays: usize,
     },
+    /// Hardly any ray from a reference point hits.
+    #[error(
+        "only {hits} of {rays} rays from reference point {index} hit the surface, where {wanted} \
+         points are wanted from there: it lies outside of the object or on a flat part of it"
+    )]
+    HiddenSurface {
+        /// Which reference point, from 0.
+        index: usize,
+        /// How many points are wanted from it.
+        wanted: usize,
+        /// How many rays hit.
+        hits: usize,
+        /// How many rays were cast.
+        rays: usize,
+    },
 }
 
 /// Draws `count` different points, in random order, on the surface as it is visible from outside.

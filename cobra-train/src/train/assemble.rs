@@ -2,25 +2,34 @@
 
 use super::TrainOptions;
 use crate::gp::FittedGp;
+use crate::reference::Cluster;
 use crate::surface::BoundingSphere;
 use cobra_infer::EncodeError;
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
-use cobra_infer::template::{ComponentSource, TemplateSource, encode, encoded_len};
-use nalgebra::Point3;
+use cobra_infer::template::{ComponentSource, Precision, TemplateSource, encode, encoded_len};
+use nalgebra::{Cholesky, Matrix3};
 
 /// A fitted component in the mesh's unit and in the template's precision.
 pub(super) struct ScaledComponent {
     centre: [f32; 3],
+    precision: Option<Precision>,
     hyperparameters: Hyperparameters,
     directions: Vec<UnitDirection>,
     weights: Vec<f32>,
 }
 
 impl ScaledComponent {
-    pub(super) fn new(centre: &Point3<f64>, fitted: &FittedGp, sphere: &BoundingSphere) -> Self {
+    pub(super) fn new(cluster: &Cluster, fitted: &FittedGp, sphere: &BoundingSphere) -> Self {
         let h = &fitted.learned.hyperparameters;
         Self {
-            centre: sphere.denormalise(centre).cast::<f32>().coords.into(),
+            centre: sphere
+                .denormalise(&cluster.centre())
+                .cast::<f32>()
+                .coords
+                .into(),
+            precision: cluster
+                .precision()
+                .and_then(|precision| scaled_precision(precision, sphere.radius)),
             hyperparameters: Hyperparameters {
                 length_scale: h.length_scale as f32,
                 parameter: h.parameter as f32,
@@ -38,6 +47,13 @@ impl ScaledComponent {
                 .collect(),
         }
     }
+}
+
+/// Q = LLᵀ of the unit sphere in the mesh's unit: L/radius.
+fn scaled_precision(precision: &Matrix3<f64>, radius: f64) -> Option<Precision> {
+    let lower = Cholesky::new(*precision)?.l() / radius;
+    let entries = [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)];
+    Precision::from_factor(entries.map(|entry| lower[entry] as f32))
 }
 
 /// What the template says of the object as a whole.
@@ -59,7 +75,7 @@ impl Frame<'_> {
             .map(|(component, sigma_hat)| ComponentSource {
                 centre: component.centre,
                 sigma_hat: *sigma_hat,
-                precision: None,
+                precision: component.precision,
                 hyperparameters: component.hyperparameters,
                 directions: &component.directions,
                 weights: &component.weights,

@@ -4,77 +4,30 @@
 //! as the paper does, and written in the mesh's unit, so that the controller never scales anything.
 
 mod assemble;
+mod draw;
+mod error;
+mod fit;
+mod membership;
+mod options;
+mod place;
 mod sigma_hat;
 
-use crate::gp::{self, FitError, FitOptions, FittedGp, PriorMean};
+pub use draw::SurfaceSampling;
+pub use error::TrainError;
+pub use membership::Overlap;
+pub use options::TrainOptions;
+pub use place::{PLACEMENTS, ReferencePoints};
+
+use crate::gp::FittedGp;
 use crate::progress::Progress;
-use crate::random::{Purpose, stream};
-use crate::reference::{self, ClusterError};
-use crate::surface::{BoundingSphere, Mesh, RayCaster, SampleError, sample_visible};
+use crate::reference::Cluster;
+use crate::surface::Mesh;
 use assemble::{Frame, ScaledComponent};
-use cobra_infer::{
-    EncodeError, Exponent, Kernel, Model, ScoreError, Template, TemplateError, Unit,
-};
-use nalgebra::Point3;
-use rayon::prelude::*;
+use cobra_infer::Template;
+use draw::Surface;
 
 /// The most components the host scores with.
 pub const LARGEST_TEMPLATE: usize = 1024;
-
-/// How many k-means results are compared.
-pub const PLACEMENTS: usize = 32;
-
-/// Where the reference points come from.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ReferencePoints {
-    /// k-means on the training points.
-    KMeans {
-        /// How many.
-        components: usize,
-    },
-    /// These, in the mesh's frame and unit.
-    Given(Vec<Point3<f64>>),
-}
-
-/// What to train.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TrainOptions {
-    /// The object's name, as it is written into the template.
-    pub name: String,
-    /// The unit that the mesh's numbers are in.
-    pub unit: Unit,
-    /// Training points.
-    pub points: usize,
-    /// Test points, for σ̂.
-    pub test_points: usize,
-    /// Where the reference points come from.
-    pub reference_points: ReferencePoints,
-    /// The covariance function and how it is fitted.
-    pub fit: FitOptions,
-    /// The seed of all randomness.
-    pub seed: u64,
-}
-
-impl TrainOptions {
-    /// The paper's numbers with this project's decisions: 10,000 and 30,000 points, 16 k-means
-    /// components, the rational quadratic with α = 1, hyperparameters learned on 300 points.
-    #[must_use]
-    pub fn new(name: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            unit: Unit::Millimetre,
-            points: 10_000,
-            test_points: 30_000,
-            reference_points: ReferencePoints::KMeans { components: 16 },
-            fit: FitOptions {
-                model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
-                prior_mean: PriorMean::Average,
-                subset: 300,
-            },
-            seed: 0,
-        }
-    }
-}
 
 /// A trained template.
 #[derive(Clone, Debug)]
@@ -88,61 +41,12 @@ pub struct Trained {
 /// What training found for a component.
 #[derive(Clone, Debug)]
 pub struct TrainedComponent {
+    /// The reference point and the shape of its cluster, in the unit sphere.
+    pub cluster: Cluster,
     /// The fit, in the unit sphere.
     pub fitted: FittedGp,
     /// Test points that it speaks for.
     pub test_points: usize,
-}
-
-/// Why there is no template.
-#[derive(Debug, thiserror::Error)]
-pub enum TrainError {
-    /// No training or no test point was asked for.
-    #[error("at least one training point and one test point are needed")]
-    NoPoints,
-    /// More components than the host scores with.
-    #[error("{found} components, at most {LARGEST_TEMPLATE} are supported")]
-    TooManyComponents {
-        /// How many were asked for.
-        found: usize,
-    },
-    /// The surface could not be sampled.
-    #[error(transparent)]
-    Sample(#[from] SampleError),
-    /// The points could not be clustered.
-    #[error(transparent)]
-    Cluster(#[from] ClusterError),
-    /// A given reference point is of no use.
-    #[error(
-        "reference point {index} at ({}, {}, {}) is the nearest of none of the {points} training \
-         points; are the reference points in the mesh's unit and frame?",
-        centre.x, centre.y, centre.z
-    )]
-    UnusedReferencePoint {
-        /// Which one, from 0.
-        index: usize,
-        /// Where it lies.
-        centre: Point3<f64>,
-        /// How many training points there are.
-        points: usize,
-    },
-    /// A component could not be fitted.
-    #[error("component {component}: {source}")]
-    Fit {
-        /// Which one.
-        component: usize,
-        /// Why.
-        source: FitError,
-    },
-    /// The template could not be written.
-    #[error(transparent)]
-    Encode(#[from] EncodeError),
-    /// The template that was written cannot be used.
-    #[error(transparent)]
-    Template(#[from] TemplateError),
-    /// The template could not be measured.
-    #[error(transparent)]
-    Score(#[from] ScoreError),
 }
 
 /// Trains a template of `mesh`.
@@ -159,16 +63,29 @@ pub fn train(
     if options.points == 0 || options.test_points == 0 {
         return Err(TrainError::NoPoints);
     }
+    options.overlap.check()?;
     let sphere = mesh.bounding_sphere();
-    let (training, test) = sample(mesh, &sphere, options, progress)?;
-    let centres = place(&training, &sphere, options, progress)?;
-    let fitted = fit_all(&training, &centres, options, progress)?;
+    let step = |name| progress.start(name, 1);
+    let done = || {
+        progress.step();
+        progress.finish();
+    };
 
-    progress.start("measuring sigma-hat", 1);
-    let scaled: Vec<ScaledComponent> = centres
+    step("sampling the surface");
+    let surface = Surface::new(mesh, &sphere);
+    let drawn = surface.draw(options)?;
+    done();
+    step("placing reference points");
+    let clusters = place::place(&drawn.training, &sphere, options)?;
+    let training = surface.redraw(drawn.training, &clusters, options)?;
+    done();
+    let fitted = fit::fit_all(&training, &clusters, options, progress)?;
+
+    step("measuring sigma-hat");
+    let scaled: Vec<ScaledComponent> = clusters
         .iter()
         .zip(&fitted)
-        .map(|(centre, fitted)| ScaledComponent::new(centre, fitted, &sphere))
+        .map(|(cluster, fitted)| ScaledComponent::new(cluster, fitted, &sphere))
         .collect();
     let frame = Frame {
         options,
@@ -178,125 +95,25 @@ pub fn train(
     let provisional = frame.encode(&scaled, &vec![sphere.radius as f32; scaled.len()])?;
     let (sigma_hats, test_counts) = sigma_hat::measure(
         &Template::from_bytes(&provisional)?,
-        &test
+        &drawn
+            .test
             .iter()
             .map(|point| sphere.denormalise(point))
             .collect::<Vec<_>>(),
     )?;
     let bytes = frame.encode(&scaled, &sigma_hats)?;
-    progress.step();
-    progress.finish();
+    done();
     Ok(Trained {
         bytes,
-        components: fitted
+        components: clusters
             .into_iter()
+            .zip(fitted)
             .zip(test_counts)
-            .map(|(fitted, test_points)| TrainedComponent {
+            .map(|((cluster, fitted), test_points)| TrainedComponent {
+                cluster,
                 fitted,
                 test_points,
             })
             .collect(),
     })
-}
-
-type Points = Vec<Point3<f64>>;
-
-fn sample(
-    mesh: &Mesh,
-    sphere: &BoundingSphere,
-    options: &TrainOptions,
-    progress: &dyn Progress,
-) -> Result<(Points, Points), TrainError> {
-    progress.start("sampling the surface", 1);
-    let unit = mesh.normalised(sphere);
-    let caster = RayCaster::new(&unit);
-    let mut training: Points = sample_visible(
-        &unit,
-        &caster,
-        options.points + options.test_points,
-        options.seed,
-        Purpose::Training,
-    )?
-    .into_iter()
-    .map(|point| point.position)
-    .collect();
-    let test = training.split_off(options.points);
-    progress.step();
-    progress.finish();
-    Ok((training, test))
-}
-
-fn place(
-    training: &[Point3<f64>],
-    sphere: &BoundingSphere,
-    options: &TrainOptions,
-    progress: &dyn Progress,
-) -> Result<Points, TrainError> {
-    progress.start("placing reference points", 1);
-    let centres = match &options.reference_points {
-        ReferencePoints::KMeans { components } => {
-            check_count(*components)?;
-            let placements = reference::kmeans(training, *components, PLACEMENTS, options.seed)?;
-            reference::most_explanatory(training, placements, &options.fit, options.seed)
-                .unwrap_or_default()
-        }
-        ReferencePoints::Given(given) => {
-            check_count(given.len())?;
-            given.iter().map(|point| sphere.normalise(point)).collect()
-        }
-    };
-    progress.step();
-    progress.finish();
-    Ok(centres)
-}
-
-fn check_count(found: usize) -> Result<(), TrainError> {
-    if found == 0 {
-        return Err(ClusterError::NoComponents.into());
-    }
-    if found > LARGEST_TEMPLATE {
-        return Err(TrainError::TooManyComponents { found });
-    }
-    Ok(())
-}
-
-fn fit_all(
-    training: &[Point3<f64>],
-    centres: &[Point3<f64>],
-    options: &TrainOptions,
-    progress: &dyn Progress,
-) -> Result<Vec<FittedGp>, TrainError> {
-    let labels = reference::assign_nearest(training, centres);
-    let mut members = vec![Vec::new(); centres.len()];
-    for (point, label) in training.iter().zip(&labels) {
-        members[*label].push(*point);
-    }
-    if let (Some(index), ReferencePoints::Given(given)) = (
-        members.iter().position(Vec::is_empty),
-        &options.reference_points,
-    ) {
-        return Err(TrainError::UnusedReferencePoint {
-            index,
-            centre: given[index],
-            points: training.len(),
-        });
-    }
-    progress.start("fitting components", centres.len() as u64);
-    let fitted = members
-        .par_iter()
-        .zip(centres)
-        .enumerate()
-        .map(|(component, (members, centre))| {
-            let mut rng = stream(
-                options.seed,
-                Purpose::HyperparameterSubset,
-                component as u64,
-            );
-            let fitted = gp::fit(centre, members, &options.fit, &mut rng);
-            progress.step();
-            fitted.map_err(|source| TrainError::Fit { component, source })
-        })
-        .collect::<Result<Vec<_>, _>>();
-    progress.finish();
-    fitted
 }

@@ -5,6 +5,7 @@ mod eval;
 mod help;
 mod inspect;
 mod output;
+mod placement;
 mod run;
 mod scene;
 mod score;

@@ -1,0 +1,65 @@
+//! Why there is no template.
+
+use super::LARGEST_TEMPLATE;
+use crate::gp::FitError;
+use crate::reference::ClusterError;
+use crate::surface::SampleError;
+use cobra_infer::{EncodeError, ScoreError, TemplateError};
+use nalgebra::Point3;
+
+/// Why there is no template.
+#[derive(Debug, thiserror::Error)]
+pub enum TrainError {
+    /// No training or no test point was asked for.
+    #[error("at least one training point and one test point are needed")]
+    NoPoints,
+    /// More components than the host scores with.
+    #[error("{found} components, at most {LARGEST_TEMPLATE} are supported")]
+    TooManyComponents {
+        /// How many were asked for.
+        found: usize,
+    },
+    /// The overlap is no share.
+    #[error("expected an overlap of at least 0, found {found}")]
+    Overlap {
+        /// What was asked for.
+        found: f64,
+    },
+    /// The surface could not be sampled.
+    #[error(transparent)]
+    Sample(#[from] SampleError),
+    /// The points could not be clustered.
+    #[error(transparent)]
+    Cluster(#[from] ClusterError),
+    /// A given reference point is of no use.
+    #[error(
+        "reference point {index} at ({}, {}, {}) is the nearest of none of the {points} training \
+         points; are the reference points in the mesh's unit and frame?",
+        centre.x, centre.y, centre.z
+    )]
+    UnusedReferencePoint {
+        /// Which one, from 0.
+        index: usize,
+        /// Where it lies.
+        centre: Point3<f64>,
+        /// How many training points there are.
+        points: usize,
+    },
+    /// A component could not be fitted.
+    #[error("component {component}: {source}")]
+    Fit {
+        /// Which one.
+        component: usize,
+        /// Why.
+        source: FitError,
+    },
+    /// The template could not be written.
+    #[error(transparent)]
+    Encode(#[from] EncodeError),
+    /// The template that was written cannot be used.
+    #[error(transparent)]
+    Template(#[from] TemplateError),
+    /// The template could not be measured.
+    #[error(transparent)]
+    Score(#[from] ScoreError),
+}

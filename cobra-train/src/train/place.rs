@@ -1,0 +1,82 @@
+//! Where the reference points lie: by clustering, or as they are given.
+//!
+//! Owns how many results of clustering are compared and by what; clustering is `reference`'s work.
+
+use super::{LARGEST_TEMPLATE, TrainError, TrainOptions};
+use crate::reference::{self, Cluster, ClusterError};
+use crate::surface::BoundingSphere;
+use nalgebra::Point3;
+
+/// How many results of clustering are compared.
+///
+/// EM's are compared by what they explain as well: those of the best likelihood give F about one
+/// point lower on the screwdriver and the bunny.
+pub const PLACEMENTS: usize = 32;
+
+/// Where the reference points come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ReferencePoints {
+    /// k-means on the training points.
+    KMeans {
+        /// How many.
+        components: usize,
+    },
+    /// Expectation maximisation on the training points.
+    Em {
+        /// How many.
+        components: usize,
+    },
+    /// These, in the mesh's frame and unit.
+    Given(Vec<Point3<f64>>),
+}
+
+pub(super) fn place(
+    points: &[Point3<f64>],
+    sphere: &BoundingSphere,
+    options: &TrainOptions,
+) -> Result<Vec<Cluster>, TrainError> {
+    match &options.reference_points {
+        ReferencePoints::KMeans { components } => {
+            check_count(*components)?;
+            let placements = reference::kmeans(points, *components, PLACEMENTS, options.seed)?
+                .into_iter()
+                .map(|centres| centres.into_iter().map(Cluster::round).collect())
+                .collect();
+            Ok(most_explanatory(points, placements, options))
+        }
+        ReferencePoints::Em { components } => {
+            check_count(*components)?;
+            let mixtures = reference::em(points, *components, PLACEMENTS, options.seed)?;
+            let placements = mixtures
+                .into_iter()
+                .map(|mixture| mixture.clusters)
+                .collect();
+            Ok(most_explanatory(points, placements, options))
+        }
+        ReferencePoints::Given(given) => {
+            check_count(given.len())?;
+            Ok(given
+                .iter()
+                .map(|point| Cluster::round(sphere.normalise(point)))
+                .collect())
+        }
+    }
+}
+
+fn most_explanatory(
+    points: &[Point3<f64>],
+    placements: Vec<Vec<Cluster>>,
+    options: &TrainOptions,
+) -> Vec<Cluster> {
+    reference::most_explanatory(points, placements, &options.fit, options.seed).unwrap_or_default()
+}
+
+fn check_count(found: usize) -> Result<(), TrainError> {
+    if found == 0 {
+        return Err(ClusterError::NoComponents.into());
+    }
+    if found > LARGEST_TEMPLATE {
+        return Err(TrainError::TooManyComponents { found });
+    }
+    Ok(())
+}
