@@ -6,7 +6,7 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-/// What a stream of random numbers is for.
+/// What a stream of random numbers is for. The order is part of the streams: new ones come last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Surface points for fitting a template, and the held-out ones that measure σ̂.
@@ -23,6 +23,8 @@ pub enum Purpose {
     HyperparameterSubset,
     /// Simulated pose errors.
     PoseErrors,
+    /// Which points of a cloud a template is fitted to, and which measure σ̂.
+    CloudSplit,
 }
 
 /// The stream for one purpose and index.

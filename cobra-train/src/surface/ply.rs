@@ -11,10 +11,12 @@ use ply_rs_bw::ply::{
 };
 
 use super::content::{BadContent, Place, Soup};
+use super::triangulate::Triangulator;
 
 const INDEX_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-/// The vertices and the fan-triangulated faces of the PLY file in `bytes`.
+/// The vertices and the triangulated faces of the PLY file in `bytes`; without an element `face`,
+/// or with none in it, there are no triangles.
 ///
 /// # Errors
 /// [`BadContent`]: the header or a row breaks the format, the file is shorter than its header
@@ -50,8 +52,9 @@ pub(super) fn parse(mut bytes: Vec<u8>) -> Result<Soup, BadContent> {
             }
         }
     }
-    let triangles = triangulate(&faces, vertices.len())?;
-    Ok((vertices.into_iter().map(|v| v.0).collect(), triangles))
+    let vertices: Vec<Point3<f64>> = vertices.into_iter().map(|v| v.0).collect();
+    let triangles = triangulate(&faces, &vertices)?;
+    Ok((vertices, triangles))
 }
 
 /// Comments may hold a path in any encoding, where the parser insists on UTF-8.
@@ -150,30 +153,28 @@ fn check_indices(element: &ElementDef) -> Result<(), BadContent> {
     ))
 }
 
-fn triangulate(faces: &[Face], vertices: usize) -> Result<Vec<[u32; 3]>, BadContent> {
+fn triangulate(faces: &[Face], vertices: &[Point3<f64>]) -> Result<Vec<[u32; 3]>, BadContent> {
+    let mut triangulator = Triangulator::default();
     let mut triangles = Vec::with_capacity(faces.len());
     let mut polygon = Vec::new();
     for (row, face) in faces.iter().enumerate() {
         polygon.clear();
         for &index in &face.0 {
             match u32::try_from(index) {
-                Ok(i) if (i as usize) < vertices => polygon.push(i),
+                Ok(i) if (i as usize) < vertices.len() => polygon.push(i),
                 _ => {
                     return Err(BadContent::new(
                         Some(Place::Face(row)),
-                        format!("indices of the {vertices} vertices, counted from 0"),
+                        format!("indices of the {} vertices, counted from 0", vertices.len()),
                         index,
                     ));
                 }
             }
         }
-        let [first, rest @ ..] = polygon.as_slice() else {
-            return Err(too_few(row, 0));
-        };
-        if rest.len() < 2 {
+        if polygon.len() < 3 {
             return Err(too_few(row, polygon.len()));
         }
-        triangles.extend(rest.windows(2).map(|edge| [*first, edge[0], edge[1]]));
+        triangulator.append(&polygon, vertices, &mut triangles);
     }
     Ok(triangles)
 }
@@ -284,10 +285,21 @@ mod tests {
     }
 
     #[test]
-    fn polygons_become_fans() {
+    fn polygons_become_triangles() {
         let (vertices, triangles) = parse(SQUARE.into()).unwrap();
         assert_eq!(vertices.len(), 4);
         assert_eq!(triangles, [[0, 1, 2], [0, 2, 3]]);
+        let dented = SQUARE.replace("\n1 1 0\n", "\n0.1 0.1 0\n");
+        let (_, triangles) = parse(dented.replace("4 0 1 2 3", "4 1 2 3 0").into()).unwrap();
+        assert!(triangles.iter().all(|t| t.contains(&0) && t.contains(&2)));
+    }
+
+    #[test]
+    fn a_file_without_faces_has_vertices_only() {
+        let (head, _) = SQUARE.split_once("element face").unwrap();
+        let rows = "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+        let (vertices, triangles) = parse(format!("{head}{rows}").into()).unwrap();
+        assert_eq!((vertices.len(), triangles.len()), (4, 0));
     }
 
     #[test]
