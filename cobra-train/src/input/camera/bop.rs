@@ -196,7 +196,11 @@ mod tests {
                 "[null, ",
                 "8.cam_K[0]: expected a number, found nothing",
             ),
-            ("[500, ", "[-500, ", "8.cam_K: the focal length fx"),
+            (
+                "[500, ",
+                "[-500, ",
+                "8.cam_K: the camera's fx must be positive",
+            ),
             (
                 "cam_t_w2c",
                 "cam_K",

@@ -78,13 +78,9 @@ impl<'a> Buffers<'a> {
 fn load_uri(uri: &str, folder: &Path) -> Result<Vec<u8>, BadContent> {
     if let Some(data) = uri.strip_prefix("data:") {
         let expected = "a data URI in base64";
-        let (_, text) = data.split_once(";base64,").ok_or_else(|| {
-            BadContent::new(
-                None,
-                expected,
-                format!("`{}`", &uri[..uri.floor_char_boundary(40)]),
-            )
-        })?;
+        let (_, text) = data
+            .split_once(";base64,")
+            .ok_or_else(|| BadContent::new(None, expected, format!("`{uri}`")))?;
         return BASE64
             .decode(text.as_bytes())
             .map_err(|error| BadContent::new(None, expected, error));
@@ -107,13 +103,13 @@ fn load_uri(uri: &str, folder: &Path) -> Result<Vec<u8>, BadContent> {
     let missing = |reason: String| {
         BadContent::new(
             None,
-            format!("the buffer's file `{name}` beside the glTF file"),
-            reason,
+            "a file beside the glTF file for each buffer",
+            format!("`{name}`: {reason}"),
         )
     };
     let metadata = std::fs::metadata(&path).map_err(|error| missing(error.to_string()))?;
     if !metadata.is_file() {
-        return Err(missing("something that is no file".to_owned()));
+        return Err(missing("no file".to_owned()));
     }
     std::fs::read(&path).map_err(|error| missing(error.to_string()))
 }

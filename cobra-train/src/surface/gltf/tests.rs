@@ -132,7 +132,7 @@ fn files_elsewhere_or_missing_are_refused() {
     for uri in ["data.bin", "."] {
         let text = document(Some(uri)).to_string();
         let bad = super::parse(text.as_bytes(), &inside).unwrap_err();
-        assert!(bad.expected.contains(&format!("file `{uri}`")), "{bad:?}");
+        assert!(bad.found.starts_with(&format!("`{uri}`: ")), "{bad:?}");
     }
     for uri in ["data:text/plain,abc", "data:;base64,!!!"] {
         assert_eq!(error(&document(Some(uri))).expected, "a data URI in base64");

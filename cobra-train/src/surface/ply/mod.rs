@@ -1,19 +1,17 @@
 //! PLY files: the elements `vertex` and `face`; everything else in the file is skipped.
 //!
-//! Owns which properties count and the checks that keep a hostile header from costing memory or
-//! time; `ply-rs-bw` owns the syntax.
+//! Owns the checks that keep a hostile header from costing memory or time; `ply-rs-bw` owns the
+//! syntax, `rows` which properties count.
+
+mod rows;
 
 use nalgebra::Point3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{
-    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
-    ScalarType,
-};
+use ply_rs_bw::ply::{ElementDef, Encoding, Header, PropertyType, ScalarType};
 
 use super::content::{BadContent, Place, Soup};
 use super::triangulate::Triangulator;
-
-const INDEX_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
+use rows::{Face, INDEX_NAMES, Skipped, Vertex};
 
 /// The vertices and the triangulated faces of the PLY file in `bytes`; without an element `face`,
 /// or with none in it, there are no triangles.
@@ -181,67 +179,6 @@ fn triangulate(faces: &[Face], vertices: &[Point3<f64>]) -> Result<Vec<[u32; 3]>
 
 fn too_few(row: usize, found: usize) -> BadContent {
     BadContent::new(Some(Place::Face(row)), "at least 3 vertices", found)
-}
-
-struct Vertex(Point3<f64>);
-
-impl PropertyAccess for Vertex {
-    fn new() -> Self {
-        Self(Point3::origin())
-    }
-
-    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        let coordinate = match name {
-            "x" => &mut self.0.x,
-            "y" => &mut self.0.y,
-            "z" => &mut self.0.z,
-            _ => return PropertyAccessResult::Ignored,
-        };
-        *coordinate = match property {
-            Property::Char(v) => v.into(),
-            Property::UChar(v) => v.into(),
-            Property::Short(v) => v.into(),
-            Property::UShort(v) => v.into(),
-            Property::Int(v) => v.into(),
-            Property::UInt(v) => v.into(),
-            Property::Float(v) => v.into(),
-            Property::Double(v) => v,
-            _ => return PropertyAccessResult::UnsupportedType,
-        };
-        PropertyAccessResult::Set
-    }
-}
-
-struct Face(Vec<i64>);
-
-impl PropertyAccess for Face {
-    fn new() -> Self {
-        Self(Vec::new())
-    }
-
-    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        if !INDEX_NAMES.contains(&name) {
-            return PropertyAccessResult::Ignored;
-        }
-        self.0 = match property {
-            Property::ListChar(v) => v.into_iter().map(i64::from).collect(),
-            Property::ListUChar(v) => v.into_iter().map(i64::from).collect(),
-            Property::ListShort(v) => v.into_iter().map(i64::from).collect(),
-            Property::ListUShort(v) => v.into_iter().map(i64::from).collect(),
-            Property::ListInt(v) => v.into_iter().map(i64::from).collect(),
-            Property::ListUInt(v) => v.into_iter().map(i64::from).collect(),
-            _ => return PropertyAccessResult::UnsupportedType,
-        };
-        PropertyAccessResult::Set
-    }
-}
-
-struct Skipped;
-
-impl PropertyAccess for Skipped {
-    fn new() -> Self {
-        Self
-    }
 }
 
 #[cfg(test)]
