@@ -64,7 +64,7 @@ impl BadContent {
     }
 }
 
-/// The places of a text's words: what stands before `#`, by line, counted from 1.
+/// The words of each line that has any, with its number, counted from 1; `#` begins a comment.
 pub(super) fn lines_of_words(text: &str) -> impl Iterator<Item = (usize, Vec<&str>)> {
     text.lines().enumerate().filter_map(|(index, line)| {
         let line = line.split('#').next().unwrap_or_default();

@@ -80,27 +80,34 @@ fn load(geometry: &str, ignore_points: bool) -> Result<Soup, BadContent> {
 /// The text with nothing but positions and the position indices of faces, line for line.
 ///
 /// Texture coordinates, normals, colours, materials and groups are no part of the surface, and the
-/// parser fails on files that hold few of them or overflows on absurd indices into them. A line
-/// that ends in a backslash is joined with the next, which leaves an empty line behind.
+/// parser fails on files that hold few of them or overflows on absurd indices into them. A vertex or
+/// a face that goes on behind a backslash is joined, which leaves empty lines behind.
 fn geometry(text: &str) -> String {
     let mut kept = String::with_capacity(text.len());
     let mut lines = text.lines();
     while let Some(line) = lines.next() {
-        let mut line = Cow::Borrowed(line);
+        let counts = matches!(line.split_whitespace().next(), Some("v" | "f"));
+        let (mut whole, mut last) = (Cow::Borrowed(line), line);
         let mut continued = 0;
-        while let Some(begin) = line.trim_end().strip_suffix('\\') {
-            let begin = begin.len();
-            let line = line.to_mut();
-            line.truncate(begin);
+        while let Some(begin) = before_backslash(last).filter(|_| counts) {
+            let joined = whole.to_mut();
+            joined.truncate(joined.len() - (last.len() - begin.len()));
             let Some(next) = lines.next() else { break };
-            line.push(' ');
-            line.push_str(next);
+            joined.push(' ');
+            joined.push_str(next);
+            last = next;
             continued += 1;
         }
-        keep_geometry(&line, &mut kept);
+        keep_geometry(&whole, &mut kept);
         kept.extend(std::iter::repeat_n('\n', 1 + continued));
     }
     kept
+}
+
+/// What stands before the backslash at a line's end; a comment may end in a path.
+fn before_backslash(line: &str) -> Option<&str> {
+    let begin = line.trim_end().strip_suffix('\\')?;
+    (!line.contains('#')).then_some(begin)
 }
 
 fn keep_geometry(line: &str, kept: &mut String) {
@@ -244,6 +251,11 @@ mod tests {
         let bad = error(&format!("{text}f 1 x 3\n"));
         assert_eq!(bad.place, Some(Place::Line(9)));
         assert!(parse(b"v 0 0 0 \\".to_vec()).is_ok());
+        let commented = format!("# from C:\\parts\\\n{}", SQUARE.replace("\nf", " # a\\\nf"));
+        assert_eq!(
+            parse(commented.into()).unwrap(),
+            parse(SQUARE.into()).unwrap()
+        );
     }
 
     #[test]

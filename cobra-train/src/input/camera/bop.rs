@@ -110,7 +110,7 @@ mod tests {
         let CameraFile::One(one) = read_as("camera.json", ONE).unwrap() else {
             panic!("per image");
         };
-        let camera = Camera::new(572.4114, 573.57043, 325.2611, 242.04899).unwrap();
+        let camera = Camera::new(572.4114, 573.57043, 325.2611, 242.049).unwrap();
         assert_eq!(one.camera, camera);
         assert_eq!(one.depth_scale, Some(0.1));
         let (width, height) = (640, 480);
@@ -125,7 +125,7 @@ mod tests {
         let ids: Vec<&str> = cameras.keys().map(String::as_str).collect();
         assert_eq!(ids, ["3", "8"]);
         let k = [
-            572.4114, 0.5, 325.2611, 0.0, 573.57043, 242.04899, 0.0, 0.0, 1.0,
+            572.4114, 0.5, 325.2611, 0.0, 573.57043, 242.049, 0.0, 0.0, 1.0,
         ];
         assert_eq!(cameras["3"].camera, Camera::from_matrix(k).unwrap());
         assert_eq!(cameras["3"].depth_scale, Some(1.0));
