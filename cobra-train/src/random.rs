@@ -7,6 +7,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 /// What a stream of random numbers is for; the order is part of the streams.
+/// What a stream of random numbers is for. The order is part of the streams: new ones come last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Surface points for fitting a template, and the held-out ones that measure σ̂.
@@ -27,6 +28,8 @@ pub enum Purpose {
     PoissonDisks,
     /// How the directions of rays from reference points are turned, and which hits are kept.
     RaysFromWithin,
+    /// Which points of a cloud a template is fitted to, and which measure σ̂.
+    CloudSplit,
 }
 
 /// The stream for one purpose and index.

@@ -12,7 +12,7 @@ fn every_mesh_is_read_and_sampled_on_its_surface() {
     let Some(data) = real_data("reading and sampling every mesh") else {
         return;
     };
-    let mut paths = files_below(&data.join("meshes"), &["obj", "ply", "stl"]);
+    let mut paths = files_below(&data.join("meshes"), &["glb", "obj", "off", "ply", "stl"]);
     paths.extend(files_below(&data.join("screwdriver"), &["ply"]));
     assert!(!paths.is_empty());
     let mut failures = Vec::new();

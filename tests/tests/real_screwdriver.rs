@@ -99,7 +99,8 @@ fn trained(mesh: &Mesh, components: usize, seed: u64) -> Vec<u8> {
 }
 
 fn report(folder: &Path, template: &Template<'_>, estimate: &Estimate) -> Report {
-    let camera = read_camera(&folder.join("K.txt")).unwrap();
+    let cameras = read_camera(&folder.join("K.txt")).unwrap();
+    let camera = cameras.for_image(&estimate.image).unwrap().camera;
     let file = folder.join(format!("correspondences/{}_corr.txt", estimate.image));
     let rows = read_correspondences(&file, ALL_ROWS).unwrap();
     let settings = Settings {

@@ -27,7 +27,7 @@ fn every_mesh_trains_or_ends_in_one_clear_line() {
     let Some(data) = real_data("training every mesh") else {
         return;
     };
-    let paths = files_below(&data.join("meshes"), &["obj", "ply", "stl"]);
+    let paths = files_below(&data.join("meshes"), &["glb", "obj", "off", "ply", "stl"]);
     assert!(!paths.is_empty());
     let mut refused = 0;
     for path in &paths {

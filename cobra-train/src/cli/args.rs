@@ -77,13 +77,14 @@ pub(crate) struct DemoArguments {
 #[command(
     after_help = "By default the mesh is sampled as cameras see it from outside; it need not be \
                   closed.\n\n\
-                  Examples:\n  cobra train part.ply -o part.cobra\n  cobra train part.stl -o \
+                  Examples:\n  cobra train part.ply -o part.cobra\n  cobra train chair.glb -o \
+                  chair.cobra\n  cobra train part.stl -o \
                   part.cobra --unit m --components 24 --json -\n  cobra train part.obj -o \
                   part.cobra --reference-points centres.txt\n  cobra train part.ply -o part.cobra \
                   --reference-points em --sampling poisson"
 )]
 pub(crate) struct TrainArguments {
-    /// Mesh file: .ply, .obj or .stl
+    /// Mesh file: .ply, .obj, .stl, .off, .glb or .gltf
     pub(crate) mesh: PathBuf,
 
     /// Template file to write
@@ -131,9 +132,14 @@ pub(crate) struct TrainArguments {
     #[arg(long, value_enum, default_value_t = MetricArgument::Chord)]
     pub(crate) metric: MetricArgument,
 
-    /// Unit that the mesh's numbers are in; files carry none
-    #[arg(long, value_enum, default_value_t = UnitArgument::Mm)]
-    pub(crate) unit: UnitArgument,
+    /// Unit that the file's numbers are in [default: mm, for glTF m]
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<UnitArgument>,
+
+    /// Move and scale the object into the unit sphere before training, and print centre and scale;
+    /// --unit and reference points are then those of the scaled object
+    #[arg(long)]
+    pub(crate) unit_sphere: bool,
 
     /// Object's name in the template, at most 32 bytes [default: the mesh file's name]
     #[arg(long)]
@@ -153,8 +159,9 @@ pub(crate) struct TrainArguments {
     after_help = "Poses: {\"ID\": [{\"cam_R_m2c\": [9], \"cam_t_m2c\": [3]}], ...}, R row-major, \
                   object to camera.\nCorrespondences: CSV with columns x,y (pixels, pixel centres \
                   at integers), X,Y,Z (object frame), and inlier and conf where asked for; a \
-                  folder holds ID_corr.txt or ID.csv for each pose.\nCamera: a 3x3 matrix as text; \
-                  lens distortion must be removed first.\nPoses and points are in the template's \
+                  folder holds ID_corr.txt or ID.csv for each pose.\nCamera: a 3x3 matrix as text, or \
+                  BOP's camera.json or scene_camera.json; lens distortion must be removed \
+                  first.\nPoses and points are in the template's \
                   unit; --sigma-hat, --noise and --delta are in millimetres.\n\nExamples:\n  cobra \
                   score part.cobra --camera K.txt --poses est_poses.json --correspondences \
                   correspondences\n  cobra score part.cobra --camera K.txt --poses est_poses.json \
@@ -165,8 +172,9 @@ pub(crate) struct ScoreArguments {
     #[arg(value_name = "FILE.cobra")]
     pub(crate) template: PathBuf,
 
-    /// Camera matrix K: three rows of three numbers, pixels
-    #[arg(long, value_name = "K.txt")]
+    /// Camera matrix K: three rows of three numbers, pixels; or BOP's camera.json or
+    /// scene_camera.json
+    #[arg(long, value_name = "K.txt|CAMERA.json")]
     pub(crate) camera: PathBuf,
 
     /// Estimated poses
@@ -238,9 +246,13 @@ pub(crate) struct EvalArguments {
     #[arg(value_name = "FILE.cobra")]
     pub(crate) template: PathBuf,
 
-    /// The mesh it was trained from: .ply, .obj or .stl
+    /// The mesh it was trained from: .ply, .obj, .stl, .off, .glb or .gltf
     #[arg(long, value_name = "MESH")]
     pub(crate) mesh: PathBuf,
+
+    /// Move and scale the mesh into the unit sphere first, as for a template that was trained so
+    #[arg(long)]
+    pub(crate) unit_sphere: bool,
 
     /// Test points, drawn independently of the training's
     #[arg(long, value_name = "N", default_value_t = 30_000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]

@@ -2,6 +2,7 @@
 
 use super::args::EvalArguments;
 use super::failure::Failure;
+use super::object;
 use super::outputs;
 use super::report::{JsonTarget, table};
 use super::template_file;
@@ -10,7 +11,7 @@ use cobra_infer::{Assignment, Template};
 use cobra_train::evaluate::{Evaluation, ResidualSummary, ShapeMetrics, evaluate, write_points};
 use cobra_train::progress::Progress;
 use cobra_train::random::Purpose;
-use cobra_train::surface::{Mesh, RayCaster, read_mesh, sample_visible};
+use cobra_train::surface::{Mesh, RayCaster, sample_visible};
 use nalgebra::Point3;
 use serde::Serialize;
 use std::path::Path;
@@ -27,7 +28,7 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
         .chain(arguments.points_out.as_deref())
         .collect();
     outputs::check(&[&arguments.template, &arguments.mesh], &written)?;
-    let mesh = read_mesh(&arguments.mesh)?;
+    let mesh = object::read(&arguments.mesh, arguments.unit_sphere, terminal)?.mesh;
     warn_of_another_object(&template, &mesh, terminal);
     let points = test_points(&mesh, arguments)?;
     let chosen: Assignment = arguments.assignment.into();

@@ -8,6 +8,7 @@ mod demo;
 mod eval;
 mod failure;
 mod inspect;
+mod object;
 mod outputs;
 mod report;
 mod score;

@@ -11,8 +11,8 @@ use cobra_infer::{
     Threshold, score,
 };
 use cobra_train::input::{
-    CorrespondenceOptions, Estimate, doubt_point_scale, doubt_pose_scale, read_camera,
-    read_correspondences, read_estimates,
+    CameraFile, CorrespondenceOptions, Estimate, doubt_point_scale, doubt_pose_scale, read_camera,
+    read_correspondences, read_estimates, same_image,
 };
 use cobra_train::progress::Progress;
 use cobra_train::train::LARGEST_TEMPLATE;
@@ -27,7 +27,7 @@ pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(),
     let bytes = template_file::read(&arguments.template)?;
     let template = Template::from_bytes(&bytes)
         .map_err(|error| Failure::template(&arguments.template, &error))?;
-    let camera = read_camera(&arguments.camera)?;
+    let cameras = read_camera(&arguments.camera)?;
     let estimates = read_estimates(&arguments.poses)?;
     let settings = settings(arguments, &template);
     if arguments.sigma_hat.is_some() && arguments.noise > 0.0 {
@@ -74,7 +74,8 @@ pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(),
             terminal.warn(&format!("{}: no row counts", file.display()));
         }
         warn_of_scale(&template, estimate, &correspondences, file, terminal);
-        let report = judge(&template, &camera, estimate, &settings, &correspondences)?;
+        let camera = camera_of(&cameras, estimate, &arguments.camera)?;
+        let report = judge(&template, camera, estimate, &settings, &correspondences)?;
         scored.push((*estimate, report));
     }
 
@@ -92,6 +93,22 @@ pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(),
         return Err(Failure::NotAccepted { count });
     }
     Ok(())
+}
+
+fn camera_of<'c>(
+    cameras: &'c CameraFile,
+    estimate: &Estimate,
+    file: &Path,
+) -> Result<&'c Camera, Failure> {
+    let found = cameras.for_image(&estimate.image);
+    found.map(|found| &found.camera).ok_or_else(|| {
+        Failure::BadInput(format!(
+            "{}: no camera of image {}, which pose {} is of",
+            file.display(),
+            estimate.image,
+            estimate.id
+        ))
+    })
 }
 
 fn judge(
@@ -226,12 +243,6 @@ fn with_other_zeros(folder: &Path, image: &str) -> Option<PathBuf> {
 fn image_of(file: &Path) -> String {
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     stem.strip_suffix("_corr").unwrap_or(&stem).to_owned()
-}
-
-/// The same id, or the same number: `000061` and `61`.
-fn same_image(a: &str, b: &str) -> bool {
-    let number = |text: &str| text.parse::<u64>().ok();
-    a == b || (number(a).is_some() && number(a) == number(b))
 }
 
 fn warn_of_scale(

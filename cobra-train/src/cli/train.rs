@@ -2,6 +2,7 @@
 
 use super::args::{KernelArgument, TrainArguments};
 use super::failure::Failure;
+use super::object::{self, Object};
 use super::outputs;
 use super::report::{JsonTarget, plural};
 use super::terminal::Terminal;
@@ -10,7 +11,7 @@ use cobra_infer::{Exponent, Model, Template, Unit};
 use cobra_train::output::write_whole;
 use cobra_train::progress::Progress;
 use cobra_train::reference::read_reference_points;
-use cobra_train::surface::{Mesh, read_mesh};
+use cobra_train::surface::BoundingSphere;
 use cobra_train::train::{Overlap, ReferencePoints, SurfaceSampling, TrainOptions, Trained, train};
 use serde::Serialize;
 use std::path::Path;
@@ -31,16 +32,18 @@ pub(super) fn run(arguments: &TrainArguments, terminal: &Terminal) -> Result<(),
     let mut written = vec![arguments.output.as_path()];
     written.extend(outputs::json_file(arguments.json.as_ref()));
     outputs::check(&inputs, &written)?;
-    let options = options(arguments)?;
-    let mesh = read_mesh(&arguments.mesh)?;
-    describe(&mesh, options.unit, terminal);
-    let trained = train(&mesh, &options, terminal)
+    let mut options = options(arguments)?;
+    let object = object::read(&arguments.mesh, arguments.unit_sphere, terminal)?;
+    options.unit = object.unit(arguments.unit, terminal);
+    describe(&object, options.unit, terminal);
+    let trained = train(&object.mesh, &options, terminal)
         .map_err(|error| Failure::BadInput(format!("{}: {error}", arguments.mesh.display())))?;
     write_whole(&arguments.output, &trained.bytes)?;
     let template = Template::from_bytes(&trained.bytes)
         .map_err(|error| Failure::template(&arguments.output, &error))?;
     let json = JsonTarget(arguments.json.as_ref());
-    json.write(&document(&template, &trained, &options), terminal)?;
+    let document = document(&template, &trained, &options, object.moved_from.as_ref());
+    json.write(&document, terminal)?;
     if !json.replaces_the_table() {
         terminal.print(&format!(
             "{}: {}, {} terms, {} bytes",
@@ -66,7 +69,6 @@ fn options(arguments: &TrainArguments) -> Result<TrainOptions, Failure> {
         None => shortened(&stem.to_string_lossy()),
     };
     let mut options = TrainOptions::new(name);
-    options.unit = arguments.unit.into();
     options.points = arguments.points as usize;
     options.test_points = arguments.test_points as usize;
     options.sampling = arguments.sampling.into();
@@ -116,7 +118,8 @@ fn centres_file(arguments: &TrainArguments) -> Option<&Path> {
     Some(path).filter(|path| ![KMEANS, EM].iter().any(|name| *path == Path::new(name)))
 }
 
-fn describe(mesh: &Mesh, unit: Unit, terminal: &Terminal) {
+fn describe(object: &Object, unit: Unit, terminal: &Terminal) {
+    let mesh = &object.mesh;
     let diameter = mesh.diameter();
     terminal.say(&format!(
         "mesh: {}, diameter {diameter:.4} {}",
@@ -130,7 +133,7 @@ fn describe(mesh: &Mesh, unit: Unit, terminal: &Terminal) {
         ));
     }
     let millimetres = diameter * f64::from(unit.millimetres());
-    if !PLAUSIBLE_DIAMETER.contains(&millimetres) {
+    if object.moved_from.is_none() && !PLAUSIBLE_DIAMETER.contains(&millimetres) {
         terminal.warn(&format!(
             "an object {millimetres:.4} mm across: is --unit {} the mesh's unit?",
             unit.symbol()
@@ -164,7 +167,15 @@ struct Document<'a> {
     seed: u64,
     metric: &'static str,
     kernel: &'static str,
+    /// With `--unit-sphere`: a point P of the file is at scale * (P - centre).
+    unit_sphere: Option<UnitSphereDocument>,
     components: Vec<ComponentDocument>,
+}
+
+#[derive(Serialize)]
+struct UnitSphereDocument {
+    centre: [f64; 3],
+    scale: f64,
 }
 
 #[derive(Serialize)]
@@ -191,6 +202,7 @@ fn document<'a>(
     template: &'a Template<'_>,
     trained: &Trained,
     options: &TrainOptions,
+    moved_from: Option<&BoundingSphere>,
 ) -> Document<'a> {
     Document {
         schema: 1,
@@ -218,6 +230,10 @@ fn document<'a>(
         seed: options.seed,
         metric: template.metric().name(),
         kernel: template.kernel().name(),
+        unit_sphere: moved_from.map(|sphere| UnitSphereDocument {
+            centre: sphere.centre.into(),
+            scale: 1.0 / sphere.radius,
+        }),
         components: template
             .components()
             .zip(&trained.components)

@@ -1,5 +1,6 @@
 //! Pose files: JSON with an image's poses under its id, as BOP's `scene_gt.json`.
 
+use super::json::{Misfit, numbers};
 use super::read_text;
 use cobra_infer::{Pose, PoseError};
 use serde_json::Value;
@@ -78,23 +79,21 @@ pub fn read_estimates(path: &Path) -> Result<Vec<Estimate>, ReadEstimatesError> 
             path: path.to_owned(),
             source,
         })?;
-    let images = document.as_object().ok_or_else(|| {
-        form(
-            path,
-            "the document",
-            "an object with image ids as keys",
-            &document,
-        )
-    })?;
+    let form = |misfit| form(path, misfit);
+    let whole = |expected| form(Misfit::new("the document", expected, &document));
+    let images = document
+        .as_object()
+        .ok_or_else(|| whole("an object with image ids as keys"))?;
     let mut estimates = Vec::new();
     for (image, poses) in images {
         let list = poses
             .as_array()
-            .ok_or_else(|| form(path, image, "a list of poses", poses))?;
+            .ok_or_else(|| form(Misfit::new(image, "a list of poses", poses)))?;
         for (index, entry) in list.iter().enumerate() {
             let place = format!("{image}[{index}]");
-            let rotation = numbers::<9>(path, &place, entry, "cam_R_m2c", "9 numbers")?;
-            let translation = numbers::<3>(path, &place, entry, "cam_t_m2c", "3 numbers")?;
+            let rotation = numbers::<9>(&place, entry, "cam_R_m2c", "9 numbers").map_err(form)?;
+            let translation =
+                numbers::<3>(&place, entry, "cam_t_m2c", "3 numbers").map_err(form)?;
             let id = match list.len() {
                 1 => image.clone(),
                 _ => format!("{image}#{index}"),
@@ -114,7 +113,7 @@ pub fn read_estimates(path: &Path) -> Result<Vec<Estimate>, ReadEstimatesError> 
         }
     }
     if estimates.is_empty() {
-        return Err(form(path, "the document", "at least one pose", &document));
+        return Err(whole("at least one pose"));
     }
     Ok(estimates)
 }
@@ -129,40 +128,12 @@ fn to_pose(r: [f32; 9], t: [f32; 3]) -> Result<(Pose, Option<f32>), PoseError> {
     }
 }
 
-fn numbers<const N: usize>(
-    path: &Path,
-    place: &str,
-    entry: &Value,
-    key: &str,
-    expected: &'static str,
-) -> Result<[f32; N], ReadEstimatesError> {
-    let value = entry.get(key).unwrap_or(&Value::Null);
-    let place = format!("{place}.{key}");
-    let list = value
-        .as_array()
-        .filter(|list| list.len() == N)
-        .ok_or_else(|| form(path, &place, expected, value))?;
-    let mut numbers = [0.0; N];
-    for (index, (number, value)) in numbers.iter_mut().zip(list).enumerate() {
-        *number = value
-            .as_f64()
-            .ok_or_else(|| form(path, &format!("{place}[{index}]"), "a number", value))?
-            as f32;
-    }
-    Ok(numbers)
-}
-
-fn form(path: &Path, place: &str, expected: &'static str, found: &Value) -> ReadEstimatesError {
+fn form(path: &Path, misfit: Misfit) -> ReadEstimatesError {
     ReadEstimatesError::Form {
         path: path.to_owned(),
-        place: place.to_owned(),
-        expected,
-        found: match found {
-            Value::Null => "nothing".to_owned(),
-            Value::Array(list) => format!("a list of {}", list.len()),
-            Value::Object(map) => format!("an object with {} keys", map.len()),
-            other => other.to_string().chars().take(60).collect(),
-        },
+        place: misfit.place,
+        expected: misfit.expected,
+        found: misfit.found,
     }
 }
 

@@ -6,13 +6,16 @@
 mod camera;
 mod correspondences;
 mod estimates;
+mod image_id;
+mod json;
 mod scale;
 mod text;
 
-pub use camera::{ReadCameraError, read_camera};
+pub use camera::{CameraFile, ImageCamera, ImageSize, ReadCameraError, read_camera};
 pub use correspondences::{
     CorrespondenceOptions, ReadCorrespondencesError, Weighting, read_correspondences,
 };
 pub use estimates::{Estimate, ReadEstimatesError, read_estimates};
+pub use image_id::same_image;
 pub use scale::{ScaleDoubt, doubt_point_scale, doubt_pose_scale};
 pub(crate) use text::read_text;

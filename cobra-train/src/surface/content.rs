@@ -6,7 +6,8 @@ use std::fmt;
 
 use nalgebra::Point3;
 
-/// Vertices and triangles as a file lists them, before [`super::Mesh::new`] checks them.
+/// Vertices and triangles as a file lists them, before [`super::Mesh::new`] checks them, or
+/// [`super::PointCloud::new`] where there are no triangles.
 pub(super) type Soup = (Vec<Point3<f64>>, Vec<[u32; 3]>);
 
 /// Longest excerpt of a file that an error repeats, in characters.
@@ -21,6 +22,13 @@ pub enum Place {
     Face(usize),
     /// A facet of an STL file, counted from 0.
     Facet(usize),
+    /// A primitive of a glTF file.
+    Primitive {
+        /// The mesh, counted from 0.
+        mesh: usize,
+        /// Its primitive, counted from 0.
+        primitive: usize,
+    },
 }
 
 impl fmt::Display for Place {
@@ -29,6 +37,7 @@ impl fmt::Display for Place {
             Self::Line(n) => write!(f, "line {n}"),
             Self::Face(n) => write!(f, "face {n}"),
             Self::Facet(n) => write!(f, "facet {n}"),
+            Self::Primitive { mesh, primitive } => write!(f, "mesh {mesh}, primitive {primitive}"),
         }
     }
 }
@@ -53,6 +62,26 @@ impl BadContent {
             found: one_line(&found.to_string()),
         }
     }
+}
+
+/// The words of each line that has any, with its number, counted from 1; `#` begins a comment.
+pub(super) fn lines_of_words(text: &str) -> impl Iterator<Item = (usize, Vec<&str>)> {
+    text.lines().enumerate().filter_map(|(index, line)| {
+        let line = line.split('#').next().unwrap_or_default();
+        let separators = |c: char| c.is_whitespace() || matches!(c, ',' | ';');
+        let words: Vec<&str> = line.split(separators).filter(|w| !w.is_empty()).collect();
+        (!words.is_empty()).then_some((index + 1, words))
+    })
+}
+
+/// The point that a line begins with; what follows it is ignored.
+pub(super) fn leading_point(words: &[&str]) -> Option<Point3<f64>> {
+    let mut numbers = words.iter().map_while(|word| word.parse().ok());
+    Some(Point3::new(
+        numbers.next()?,
+        numbers.next()?,
+        numbers.next()?,
+    ))
 }
 
 /// The text on one line, control characters removed and cut to [`LONGEST_EXCERPT`]: libraries

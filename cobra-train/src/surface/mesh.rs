@@ -1,11 +1,12 @@
 //! The triangle mesh as the trainer sees it: validated once, then trusted.
 //!
-//! Owns the checks that make a list of vertices and faces a surface that rays can hit, and the
-//! sphere that normalises it. Reading files is `surface::read`'s work, ray casting
+//! Owns the checks that make a list of vertices and faces a surface that rays can hit. The sphere
+//! that normalises it is `surface::bounds`'s; reading files is `surface::read`'s work, ray casting
 //! `surface::raycast`'s.
 
 use nalgebra::{Point3, Vector3};
 
+use super::bounds::{BoundingSphere, CoordinateError, check_coordinates};
 use super::diameter::diameter;
 
 /// A triangle mesh with at least one triangle of non-zero area, all of whose vertices are finite.
@@ -16,10 +17,6 @@ pub struct Mesh {
     dropped: usize,
 }
 
-/// The largest coordinate that is accepted, in the mesh's unit: areas are squared, and the square
-/// must stay finite.
-const MAX_COORDINATE: f64 = 1e60;
-
 /// Why a list of vertices and faces is not a surface.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
@@ -29,28 +26,9 @@ pub enum MeshError {
         /// How many vertices it has.
         vertices: usize,
     },
-    /// A coordinate is NaN or infinite.
-    #[error("vertex {index} is not finite: ({x}, {y}, {z})")]
-    NotFinite {
-        /// The vertex, counted from 0.
-        index: usize,
-        /// Its x coordinate.
-        x: f64,
-        /// Its y coordinate.
-        y: f64,
-        /// Its z coordinate.
-        z: f64,
-    },
-    /// A coordinate is too large to be squared twice without overflow.
-    #[error(
-        "vertex {index} has the coordinate {coordinate:e}: at most {MAX_COORDINATE:e} is expected"
-    )]
-    TooFar {
-        /// The vertex, counted from 0.
-        index: usize,
-        /// The coordinate.
-        coordinate: f64,
-    },
+    /// A coordinate cannot be computed with.
+    #[error(transparent)]
+    Coordinate(#[from] CoordinateError),
     /// A face names a vertex that does not exist.
     #[error("face {face} names vertex {index}, but the mesh has {vertices} vertices")]
     MissingVertex {
@@ -67,30 +45,6 @@ pub enum MeshError {
         /// How many faces were given.
         faces: usize,
     },
-}
-
-/// The sphere that normalises an object: the centre of its bounding box, and the distance to the
-/// farthest vertex from there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BoundingSphere {
-    /// Centre, in the mesh's unit.
-    pub centre: Point3<f64>,
-    /// Radius, in the mesh's unit.
-    pub radius: f64,
-}
-
-impl BoundingSphere {
-    /// From the mesh's frame to the unit sphere.
-    #[must_use]
-    pub fn normalise(&self, point: &Point3<f64>) -> Point3<f64> {
-        Point3::from((point - self.centre) / self.radius)
-    }
-
-    /// From the unit sphere to the mesh's frame.
-    #[must_use]
-    pub fn denormalise(&self, point: &Point3<f64>) -> Point3<f64> {
-        self.centre + point.coords * self.radius
-    }
 }
 
 impl Mesh {
@@ -111,19 +65,7 @@ impl Mesh {
                 vertices: vertices.len(),
             });
         }
-        for (index, vertex) in vertices.iter().enumerate() {
-            if !vertex.iter().all(|c| c.is_finite()) {
-                return Err(MeshError::NotFinite {
-                    index,
-                    x: vertex.x,
-                    y: vertex.y,
-                    z: vertex.z,
-                });
-            }
-            if let Some(&coordinate) = vertex.iter().find(|c| c.abs() > MAX_COORDINATE) {
-                return Err(MeshError::TooFar { index, coordinate });
-            }
-        }
+        check_coordinates(&vertices)?;
         for (face, triangle) in triangles.iter().enumerate() {
             if let Some(&index) = triangle.iter().find(|&&i| i as usize >= vertices.len()) {
                 return Err(MeshError::MissingVertex {
@@ -164,7 +106,7 @@ impl Mesh {
     }
 
     /// The vertices that some triangle uses, each once, in their order.
-    pub(super) fn used_vertices(&self) -> impl Iterator<Item = &Point3<f64>> {
+    pub(super) fn used_vertices(&self) -> impl Iterator<Item = &Point3<f64>> + Clone {
         let mut used = vec![false; self.vertices.len()];
         for &i in self.triangles.iter().flatten() {
             used[i as usize] = true;
@@ -179,16 +121,7 @@ impl Mesh {
     /// paper's data preparation does. Vertices that no triangle uses do not count.
     #[must_use]
     pub fn bounding_sphere(&self) -> BoundingSphere {
-        let first = self.vertices[self.triangles[0][0] as usize];
-        let (low, high) = self
-            .used_vertices()
-            .fold((first, first), |(low, high), v| (low.inf(v), high.sup(v)));
-        let centre = nalgebra::center(&low, &high);
-        let radius = self
-            .used_vertices()
-            .map(|v| (v - centre).norm())
-            .fold(0.0, f64::max);
-        BoundingSphere { centre, radius }
+        BoundingSphere::around(self.used_vertices())
     }
 
     /// The largest distance between two vertices (BOP's `diameter`), exact. Vertices that no
@@ -255,7 +188,7 @@ mod tests {
         vertices[1].y = f64::NEG_INFINITY;
         assert!(matches!(
             refused(vertices.clone(), vec![[0, 1, 2]]),
-            MeshError::NotFinite { index: 1, .. }
+            MeshError::Coordinate(CoordinateError::NotFinite { index: 1, .. })
         ));
         vertices[1].y = -1e61;
         let error = refused(vertices, vec![[0, 1, 2]]);

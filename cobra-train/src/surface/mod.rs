@@ -1,23 +1,33 @@
 //! The object's surface: where it comes from and how points on it are drawn.
 
+mod bounds;
 mod camera;
+mod cloud;
 mod content;
 mod diameter;
+mod geometry;
+mod gltf;
 mod mesh;
 mod obj;
+mod off;
 mod ply;
 mod poisson;
 mod raycast;
 mod read;
 mod sample;
 mod stl;
+mod triangulate;
 mod within;
+mod xyz;
 
+pub use bounds::{BoundingSphere, CoordinateError};
 pub use camera::{CAMERA_DISTANCE, CAMERAS, fibonacci_sphere};
+pub use cloud::{CloudError, PointCloud, SplitCloud};
 pub use content::Place;
-pub use mesh::{BoundingSphere, Mesh, MeshError};
+pub use geometry::Geometry;
+pub use mesh::{Mesh, MeshError};
 pub use poisson::sample_poisson;
 pub use raycast::{Hit, RayCaster};
-pub use read::{ReadMeshError, read_mesh};
+pub use read::{ReadGeometry, ReadMeshError, read_geometry, read_mesh};
 pub use sample::{SampleError, SurfacePoint, sample_visible};
 pub use within::sample_from_within;

@@ -1,7 +1,9 @@
 //! The command `cobra`, run as its users run it.
 
+mod camera_input;
 mod demo;
 mod eval;
+mod geometry_input;
 mod help;
 mod inspect;
 mod output;

@@ -20,7 +20,9 @@ const VERTICES: &str = "v 0 0 0\nv 10 0 0\nv 0 10 0\n";
 
 #[test]
 fn empty_files_are_refused_in_every_format() {
-    for name in ["a.ply", "a.obj", "a.stl"] {
+    for name in [
+        "a.ply", "a.obj", "a.stl", "a.off", "a.glb", "a.gltf", "a.xyz",
+    ] {
         refuse_mesh(name, b"", 3, &[]);
         refuse_mesh(name, b"\n \n", 3, &[]);
         refuse_mesh(name, &[0; 84], 3, &[]);
@@ -73,7 +75,11 @@ fn what_cannot_be_read_is_told_apart_from_what_cannot_be_used() {
     refuse(train("@none.ply"), 4, &["none.ply"]);
     std::fs::create_dir(scene.path("folder.stl")).unwrap();
     refuse(train("@folder.stl"), 4, &["folder.stl"]);
-    refuse(train("@K.txt"), 3, &["K.txt", ".ply, .obj or .stl"]);
+    refuse(
+        train("@K.txt"),
+        3,
+        &["K.txt", ".ply, .obj, .stl, .off, .glb"],
+    );
     assert!(!scene.path("part.cobra").exists());
 }
 

@@ -1,20 +1,20 @@
 //! PLY files: the elements `vertex` and `face`; everything else in the file is skipped.
 //!
-//! Owns which properties count and the checks that keep a hostile header from costing memory or
-//! time; `ply-rs-bw` owns the syntax.
+//! Owns the checks that keep a hostile header from costing memory or time; `ply-rs-bw` owns the
+//! syntax, `rows` which properties count.
+
+mod rows;
 
 use nalgebra::Point3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{
-    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
-    ScalarType,
-};
+use ply_rs_bw::ply::{ElementDef, Encoding, Header, PropertyType, ScalarType};
 
 use super::content::{BadContent, Place, Soup};
+use super::triangulate::Triangulator;
+use rows::{Face, INDEX_NAMES, Skipped, Vertex};
 
-const INDEX_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
-
-/// The vertices and the fan-triangulated faces of the PLY file in `bytes`.
+/// The vertices and the triangulated faces of the PLY file in `bytes`; without an element `face`,
+/// or with none in it, there are no triangles.
 ///
 /// # Errors
 /// [`BadContent`]: the header or a row breaks the format, the file is shorter than its header
@@ -50,8 +50,9 @@ pub(super) fn parse(mut bytes: Vec<u8>) -> Result<Soup, BadContent> {
             }
         }
     }
-    let triangles = triangulate(&faces, vertices.len())?;
-    Ok((vertices.into_iter().map(|v| v.0).collect(), triangles))
+    let vertices: Vec<Point3<f64>> = vertices.into_iter().map(|v| v.0).collect();
+    let triangles = triangulate(&faces, &vertices)?;
+    Ok((vertices, triangles))
 }
 
 /// Comments may hold a path in any encoding, where the parser insists on UTF-8.
@@ -150,97 +151,34 @@ fn check_indices(element: &ElementDef) -> Result<(), BadContent> {
     ))
 }
 
-fn triangulate(faces: &[Face], vertices: usize) -> Result<Vec<[u32; 3]>, BadContent> {
+fn triangulate(faces: &[Face], vertices: &[Point3<f64>]) -> Result<Vec<[u32; 3]>, BadContent> {
+    let mut triangulator = Triangulator::default();
     let mut triangles = Vec::with_capacity(faces.len());
     let mut polygon = Vec::new();
     for (row, face) in faces.iter().enumerate() {
         polygon.clear();
         for &index in &face.0 {
             match u32::try_from(index) {
-                Ok(i) if (i as usize) < vertices => polygon.push(i),
+                Ok(i) if (i as usize) < vertices.len() => polygon.push(i),
                 _ => {
                     return Err(BadContent::new(
                         Some(Place::Face(row)),
-                        format!("indices of the {vertices} vertices, counted from 0"),
+                        format!("indices of the {} vertices, counted from 0", vertices.len()),
                         index,
                     ));
                 }
             }
         }
-        let [first, rest @ ..] = polygon.as_slice() else {
-            return Err(too_few(row, 0));
-        };
-        if rest.len() < 2 {
+        if polygon.len() < 3 {
             return Err(too_few(row, polygon.len()));
         }
-        triangles.extend(rest.windows(2).map(|edge| [*first, edge[0], edge[1]]));
+        triangulator.append(&polygon, vertices, &mut triangles);
     }
     Ok(triangles)
 }
 
 fn too_few(row: usize, found: usize) -> BadContent {
     BadContent::new(Some(Place::Face(row)), "at least 3 vertices", found)
-}
-
-struct Vertex(Point3<f64>);
-
-impl PropertyAccess for Vertex {
-    fn new() -> Self {
-        Self(Point3::origin())
-    }
-
-    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        let coordinate = match name {
-            "x" => &mut self.0.x,
-            "y" => &mut self.0.y,
-            "z" => &mut self.0.z,
-            _ => return PropertyAccessResult::Ignored,
-        };
-        *coordinate = match property {
-            Property::Char(v) => v.into(),
-            Property::UChar(v) => v.into(),
-            Property::Short(v) => v.into(),
-            Property::UShort(v) => v.into(),
-            Property::Int(v) => v.into(),
-            Property::UInt(v) => v.into(),
-            Property::Float(v) => v.into(),
-            Property::Double(v) => v,
-            _ => return PropertyAccessResult::UnsupportedType,
-        };
-        PropertyAccessResult::Set
-    }
-}
-
-struct Face(Vec<i64>);
-
-impl PropertyAccess for Face {
-    fn new() -> Self {
-        Self(Vec::new())
-    }
-
-    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        if !INDEX_NAMES.contains(&name) {
-            return PropertyAccessResult::Ignored;
-        }
-        self.0 = match property {
-            Property::ListChar(v) => v.into_iter().map(i64::from).collect(),
-            Property::ListUChar(v) => v.into_iter().map(i64::from).collect(),
-            Property::ListShort(v) => v.into_iter().map(i64::from).collect(),
-            Property::ListUShort(v) => v.into_iter().map(i64::from).collect(),
-            Property::ListInt(v) => v.into_iter().map(i64::from).collect(),
-            Property::ListUInt(v) => v.into_iter().map(i64::from).collect(),
-            _ => return PropertyAccessResult::UnsupportedType,
-        };
-        PropertyAccessResult::Set
-    }
-}
-
-struct Skipped;
-
-impl PropertyAccess for Skipped {
-    fn new() -> Self {
-        Self
-    }
 }
 
 #[cfg(test)]
@@ -284,10 +222,21 @@ mod tests {
     }
 
     #[test]
-    fn polygons_become_fans() {
+    fn polygons_become_triangles() {
         let (vertices, triangles) = parse(SQUARE.into()).unwrap();
         assert_eq!(vertices.len(), 4);
         assert_eq!(triangles, [[0, 1, 2], [0, 2, 3]]);
+        let dented = SQUARE.replace("\n1 1 0\n", "\n0.1 0.1 0\n");
+        let (_, triangles) = parse(dented.replace("4 0 1 2 3", "4 1 2 3 0").into()).unwrap();
+        assert!(triangles.iter().all(|t| t.contains(&0) && t.contains(&2)));
+    }
+
+    #[test]
+    fn a_file_without_faces_has_vertices_only() {
+        let (head, _) = SQUARE.split_once("element face").unwrap();
+        let rows = "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+        let (vertices, triangles) = parse(format!("{head}{rows}").into()).unwrap();
+        assert_eq!((vertices.len(), triangles.len()), (4, 0));
     }
 
     #[test]

@@ -1,62 +1,14 @@
-//! Camera files: the 3×3 matrix K as text.
+//! The camera matrix K as text.
+//!
+//! Owns rows and separators.
 
-use super::read_text;
-use cobra_infer::{Camera, CameraError};
-use std::path::{Path, PathBuf};
+use super::ReadCameraError;
+use cobra_infer::Camera;
+use std::path::Path;
 
-/// Why a file holds no camera.
-#[derive(Debug, thiserror::Error)]
-pub enum ReadCameraError {
-    /// The file could not be read.
-    #[error("{}: {source}", path.display())]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// A row does not hold the numbers it should.
-    #[error(
-        "{}: row {row}: expected three numbers of the camera matrix, found {found:?}",
-        path.display()
-    )]
-    Row {
-        /// The file.
-        path: PathBuf,
-        /// The row, from 1.
-        row: usize,
-        /// What stands there.
-        found: String,
-    },
-    /// There are fewer than three rows.
-    #[error("{}: expected three rows of three numbers, found {found}", path.display())]
-    TooFewRows {
-        /// The file.
-        path: PathBuf,
-        /// How many rows there are.
-        found: usize,
-    },
-    /// The numbers are no pinhole camera.
-    #[error("{}: {source}", path.display())]
-    Camera {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with them.
-        source: CameraError,
-    },
-}
-
-/// Reads K from a text file: three rows of three numbers, separated by commas or blanks. Numbers
-/// in further rows are distortion coefficients, which must be 0.
-///
-/// # Errors
-/// [`ReadCameraError`] names the file and the row.
-pub fn read_camera(path: &Path) -> Result<Camera, ReadCameraError> {
+/// Three rows of three numbers; numbers in further rows are distortion coefficients.
+pub(super) fn parse(text: &str, path: &Path) -> Result<Camera, ReadCameraError> {
     let owned = || path.to_owned();
-    let text = read_text(path).map_err(|source| ReadCameraError::Io {
-        path: owned(),
-        source,
-    })?;
     let mut matrix = [0.0_f32; 9];
     let mut distortion = Vec::new();
     let mut rows = 0;
@@ -95,19 +47,21 @@ pub fn read_camera(path: &Path) -> Result<Camera, ReadCameraError> {
         .and_then(|camera| camera.with_distortion(&distortion))
         .map_err(|source| ReadCameraError::Camera {
             path: owned(),
+            place: None,
             source,
         })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::super::{CameraFile, read_as};
+    use cobra_infer::Camera;
 
     fn read(text: &str) -> Result<Camera, String> {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("K.txt");
-        std::fs::write(&path, text).unwrap();
-        read_camera(&path).map_err(|error| error.to_string())
+        match read_as("K.txt", text)? {
+            CameraFile::One(one) => Ok(one.camera),
+            CameraFile::PerImage(_) => panic!("a matrix is one camera"),
+        }
     }
 
     #[test]
