@@ -127,7 +127,8 @@ fn templates(mesh: &Mesh, size: &Size) -> Vec<Vec<u8>> {
     let mut templates = Vec::new();
     for (_, exponent) in EXPONENTS {
         options.fit.model.kernel = Kernel::RationalQuadratic(exponent);
-        let trained = train(mesh, &options, &Silent).expect("both objects can be trained");
+        let trained =
+            train(&mesh.clone().into(), &options, &Silent).expect("both objects can be trained");
         if templates.is_empty() {
             options = with_reference_points_of(&trained.bytes, options);
         }

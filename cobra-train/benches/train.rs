@@ -26,7 +26,8 @@ fn main() {
         group.sampling_mode(SamplingMode::Flat);
         let mut table = Table::new(&mut group, 10);
         table.bench("whole", || {
-            train(&object.mesh, &options, &Silent).expect("both objects can be trained")
+            train(&object.mesh.clone().into(), &options, &Silent)
+                .expect("both objects can be trained")
         });
         // They cost as much as the whole again: those of one object have to do.
         if index == 0 {

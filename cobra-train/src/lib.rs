@@ -9,12 +9,12 @@
 //! # Example
 //! ```no_run
 //! use cobra_train::progress::Silent;
-//! use cobra_train::surface::read_mesh;
+//! use cobra_train::surface::read_geometry;
 //! use cobra_train::train::{TrainOptions, train};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let mesh = read_mesh("screwdriver.ply".as_ref())?;
-//! let trained = train(&mesh, &TrainOptions::new("screwdriver"), &Silent)?;
+//! let object = read_geometry("screwdriver.ply".as_ref())?.geometry;
+//! let trained = train(&object, &TrainOptions::new("screwdriver"), &Silent)?;
 //! cobra_train::output::write_whole("screwdriver.cobra".as_ref(), &trained.bytes)?;
 //! let template = cobra_infer::Template::from_bytes(&trained.bytes)?;
 //! println!("{} components", template.component_count());

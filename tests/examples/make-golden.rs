@@ -167,7 +167,7 @@ fn trained(model: Model, components: usize, points: usize) -> Result<Vec<u8>, Bo
     options.test_points = 2000;
     options.reference_points = ReferencePoints::KMeans { components };
     options.fit.model = model;
-    Ok(train(&mechanical_part(), &options, &Silent)?.bytes)
+    Ok(train(&mechanical_part().into(), &options, &Silent)?.bytes)
 }
 
 fn recorded(bytes: &[u8], rules: &[Rules]) -> Result<String, Box<dyn Error>> {

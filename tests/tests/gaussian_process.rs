@@ -252,7 +252,7 @@ fn the_controllers_mean_is_the_hosts_to_a_hundredth_of_sigma_hat() {
         options.test_points = 1500;
         options.reference_points = ReferencePoints::KMeans { components: 3 };
         options.fit.model = model;
-        let trained = train(&mesh, &options, &Silent).unwrap();
+        let trained = train(&mesh.clone().into(), &options, &Silent).unwrap();
         let template = Template::from_bytes(&trained.bytes).unwrap();
         let radius = mesh.bounding_sphere().radius;
         for (component, trained) in template.components().zip(&trained.components) {

@@ -95,7 +95,9 @@ fn trained(mesh: &Mesh, components: usize, seed: u64) -> Vec<u8> {
         seed,
         ..TrainOptions::new("screwdriver")
     };
-    train(mesh, &options, &Silent).unwrap().bytes
+    train(&mesh.clone().into(), &options, &Silent)
+        .unwrap()
+        .bytes
 }
 
 fn report(folder: &Path, template: &Template<'_>, estimate: &Estimate) -> Report {

@@ -1,14 +1,14 @@
-//! Meshes from many hands: each becomes a template, or one line says why not.
+//! Meshes and clouds from many hands: each becomes a template, or one line says why not.
 
 use cobra_infer::Template;
 use cobra_tests::data::{files_below, real_data};
 use cobra_train::progress::Silent;
-use cobra_train::surface::read_mesh;
+use cobra_train::surface::read_geometry;
 use cobra_train::train::{ReferencePoints, TrainOptions, train};
 use std::path::Path;
 
 fn outcome(path: &Path) -> Result<usize, String> {
-    let mesh = read_mesh(path).map_err(|error| error.to_string())?;
+    let read = read_geometry(path).map_err(|error| error.to_string())?;
     let mut options = TrainOptions {
         points: 1000,
         test_points: 2000,
@@ -17,17 +17,21 @@ fn outcome(path: &Path) -> Result<usize, String> {
     };
     // Whether it trains is asked, not how well.
     options.fit.subset = 50;
-    let trained = train(&mesh, &options, &Silent).map_err(|error| error.to_string())?;
+    let trained = train(&read.geometry, &options, &Silent).map_err(|error| error.to_string())?;
     let template = Template::from_bytes(&trained.bytes).map_err(|error| error.to_string())?;
     Ok(template.component_count())
 }
 
 #[test]
-fn every_mesh_trains_or_ends_in_one_clear_line() {
-    let Some(data) = real_data("training every mesh") else {
+fn every_mesh_and_cloud_trains_or_ends_in_one_clear_line() {
+    let Some(data) = real_data("training every mesh and cloud") else {
         return;
     };
-    let paths = files_below(&data.join("meshes"), &["glb", "obj", "off", "ply", "stl"]);
+    let formats = ["glb", "obj", "off", "ply", "stl"];
+    let paths: Vec<_> = ["meshes", "clouds", "screwdriver", "lmo/models"]
+        .iter()
+        .flat_map(|folder| files_below(&data.join(folder), &formats))
+        .collect();
     assert!(!paths.is_empty());
     let mut refused = 0;
     for path in &paths {
@@ -41,5 +45,5 @@ fn every_mesh_trains_or_ends_in_one_clear_line() {
             }
         }
     }
-    assert_eq!(refused, 0, "meshes that were trained before");
+    assert_eq!(refused, 0, "files that were trained before");
 }

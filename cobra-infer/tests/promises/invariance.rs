@@ -1,5 +1,9 @@
 //! What a score must not depend on: the unit, the object's frame, the order of points and of
 //! components.
+#![expect(
+    clippy::disallowed_methods,
+    reason = "the factors are made independently of the crate's own functions"
+)]
 
 use crate::content::{Content, content};
 use crate::scene::{COMPONENTS, EVERY_RULE, camera, observed};

@@ -39,11 +39,11 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Show the whole path on a part made by code: train, simulate, score, picture
     Demo(DemoArguments),
-    /// Train a template from a mesh
+    /// Train a template from a mesh or a point cloud
     Train(TrainArguments),
     /// Score estimated poses: accept, reject or undecided
     Score(ScoreArguments),
-    /// Measure how well a template reproduces a mesh
+    /// Measure how well a template reproduces a mesh or a point cloud
     Eval(EvalArguments),
     /// Show what is in a template, its size and its cost
     Inspect(InspectArguments),
@@ -84,7 +84,7 @@ pub(crate) struct DemoArguments {
                   --reference-points em --sampling poisson"
 )]
 pub(crate) struct TrainArguments {
-    /// Mesh file: .ply, .obj, .stl, .off, .glb or .gltf
+    /// Mesh or point cloud: .ply, .obj, .stl, .off, .glb, .gltf or .xyz
     pub(crate) mesh: PathBuf,
 
     /// Template file to write
@@ -246,7 +246,7 @@ pub(crate) struct EvalArguments {
     #[arg(value_name = "FILE.cobra")]
     pub(crate) template: PathBuf,
 
-    /// The mesh it was trained from: .ply, .obj, .stl, .off, .glb or .gltf
+    /// The mesh or point cloud it was trained from
     #[arg(long, value_name = "MESH")]
     pub(crate) mesh: PathBuf,
 

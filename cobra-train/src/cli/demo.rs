@@ -33,7 +33,7 @@ pub(super) fn run(arguments: &DemoArguments, terminal: &Terminal) -> Result<(), 
         seed: arguments.seed,
         ..TrainOptions::new("bracket")
     };
-    let trained = train(&mesh, &options, terminal)?;
+    let trained = train(&mesh.clone().into(), &options, terminal)?;
     write_whole(&template_file, &trained.bytes)?;
     let template = Template::from_bytes(&trained.bytes)
         .map_err(|error| Failure::template(&template_file, &error))?;

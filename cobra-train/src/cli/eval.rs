@@ -1,17 +1,17 @@
-//! `cobra eval`: how well a template reproduces a mesh.
+//! `cobra eval`: how well a template reproduces a mesh or a cloud.
 
 use super::args::EvalArguments;
 use super::failure::Failure;
 use super::object;
 use super::outputs;
-use super::report::{JsonTarget, table};
+use super::report::{JsonTarget, plural, table};
 use super::template_file;
 use super::terminal::Terminal;
 use cobra_infer::{Assignment, Template};
 use cobra_train::evaluate::{Evaluation, ResidualSummary, ShapeMetrics, evaluate, write_points};
 use cobra_train::progress::Progress;
 use cobra_train::random::Purpose;
-use cobra_train::surface::{Mesh, RayCaster, sample_visible};
+use cobra_train::surface::{Geometry, RayCaster, sample_visible};
 use nalgebra::Point3;
 use serde::Serialize;
 use std::path::Path;
@@ -28,9 +28,9 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
         .chain(arguments.points_out.as_deref())
         .collect();
     outputs::check(&[&arguments.template, &arguments.mesh], &written)?;
-    let mesh = object::read(&arguments.mesh, arguments.unit_sphere, terminal)?.mesh;
-    warn_of_another_object(&template, &mesh, terminal);
-    let points = test_points(&mesh, arguments)?;
+    let object = object::read(&arguments.mesh, arguments.unit_sphere, terminal)?.geometry;
+    warn_of_another_object(&template, &object, terminal);
+    let points = test_points(&object, arguments, terminal)?;
     let chosen: Assignment = arguments.assignment.into();
     let evaluation = evaluate(&template, chosen, &points)?;
     let mut beside = Vec::new();
@@ -65,7 +65,24 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
     terminal.print(&text(&template, &rows, points.len()))
 }
 
-fn test_points(mesh: &Mesh, arguments: &EvalArguments) -> Result<Vec<Point3<f64>>, Failure> {
+/// Fresh points on a mesh's faces; of a cloud, points that no training with the same seed uses.
+fn test_points(
+    object: &Geometry,
+    arguments: &EvalArguments,
+    terminal: &Terminal,
+) -> Result<Vec<Point3<f64>>, Failure> {
+    let mesh = match object {
+        Geometry::Mesh(mesh) => mesh,
+        Geometry::Cloud(cloud) => {
+            let test = cloud.test_points(arguments.points as usize, arguments.seed);
+            terminal.say(&format!(
+                "cloud: {} that training with --seed {} leaves out",
+                plural(test.len(), "point"),
+                arguments.seed
+            ));
+            return Ok(test);
+        }
+    };
     let sphere = mesh.bounding_sphere();
     let unit = mesh.normalised(&sphere);
     let sampled = sample_visible(
@@ -82,12 +99,12 @@ fn test_points(mesh: &Mesh, arguments: &EvalArguments) -> Result<Vec<Point3<f64>
         .collect())
 }
 
-fn warn_of_another_object(template: &Template<'_>, mesh: &Mesh, terminal: &Terminal) {
-    let radius = mesh.bounding_sphere().radius;
+fn warn_of_another_object(template: &Template<'_>, object: &Geometry, terminal: &Terminal) {
+    let radius = object.bounding_sphere().radius;
     let expected = f64::from(template.radius());
     if (radius / expected - 1.0).abs() > SAME_OBJECT {
         terminal.warn(&format!(
-            "the mesh's radius is {radius:.4}, the template's {expected:.4} {}: another object, or \
+            "the object's radius is {radius:.4}, the template's {expected:.4} {}: another object, or \
              another unit",
             template.unit().symbol()
         ));

@@ -1,4 +1,4 @@
-//! The object that `train` and `eval` are given: its mesh, its unit, and the move into the unit
+//! The object that `train` and `eval` are given: its surface, its unit, and the move into the unit
 //! sphere where that was asked for.
 //!
 //! Owns what the user is told about the unit. Reading is `surface::read`'s work.
@@ -8,14 +8,12 @@ use super::failure::Failure;
 use super::terminal::Terminal;
 use cobra_infer::Unit;
 use cobra_train::progress::Progress;
-use cobra_train::surface::{
-    BoundingSphere, Geometry, Mesh, MeshError, ReadGeometry, ReadMeshError, read_geometry,
-};
+use cobra_train::surface::{BoundingSphere, Geometry, ReadGeometry, read_geometry};
 use std::path::Path;
 
 /// What a file holds, ready for use.
 pub(super) struct Object {
-    pub(super) mesh: Mesh,
+    pub(super) geometry: Geometry,
     /// The unit that the format prescribes, if any.
     pub(super) prescribed: Option<Unit>,
     /// Where the object was before it was moved into the unit sphere.
@@ -39,19 +37,11 @@ pub(super) fn read(path: &Path, unit_sphere: bool, terminal: &Terminal) -> Resul
     } else {
         (geometry, None)
     };
-    match geometry {
-        Geometry::Mesh(mesh) => Ok(Object {
-            mesh,
-            prescribed: unit,
-            moved_from,
-        }),
-        Geometry::Cloud(cloud) => Err(Failure::from(ReadMeshError::NotASurface {
-            path: path.to_owned(),
-            source: MeshError::NoFaces {
-                vertices: cloud.points().len(),
-            },
-        })),
-    }
+    Ok(Object {
+        geometry,
+        prescribed: unit,
+        moved_from,
+    })
 }
 
 impl Object {

@@ -11,8 +11,8 @@ use cobra_infer::{Exponent, Model, Template, Unit};
 use cobra_train::output::write_whole;
 use cobra_train::progress::Progress;
 use cobra_train::reference::read_reference_points;
-use cobra_train::surface::BoundingSphere;
-use cobra_train::train::{Overlap, ReferencePoints, SurfaceSampling, TrainOptions, Trained, train};
+use cobra_train::surface::{BoundingSphere, Geometry};
+use cobra_train::train::{Overlap, ReferencePoints, TrainOptions, Trained, train};
 use serde::Serialize;
 use std::path::Path;
 
@@ -36,8 +36,15 @@ pub(super) fn run(arguments: &TrainArguments, terminal: &Terminal) -> Result<(),
     let object = object::read(&arguments.mesh, arguments.unit_sphere, terminal)?;
     options.unit = object.unit(arguments.unit, terminal);
     describe(&object, options.unit, terminal);
-    let trained = train(&object.mesh, &options, terminal)
+    let trained = train(&object.geometry, &options, terminal)
         .map_err(|error| Failure::BadInput(format!("{}: {error}", arguments.mesh.display())))?;
+    if let Geometry::Cloud(_) = object.geometry {
+        terminal.say(&format!(
+            "cloud split: {} for training, {} to measure sigma-hat",
+            plural(trained.points, "point"),
+            trained.test_points
+        ));
+    }
     write_whole(&arguments.output, &trained.bytes)?;
     let template = Template::from_bytes(&trained.bytes)
         .map_err(|error| Failure::template(&arguments.output, &error))?;
@@ -119,18 +126,21 @@ fn centres_file(arguments: &TrainArguments) -> Option<&Path> {
 }
 
 fn describe(object: &Object, unit: Unit, terminal: &Terminal) {
-    let mesh = &object.mesh;
-    let diameter = mesh.diameter();
-    terminal.say(&format!(
-        "mesh: {}, diameter {diameter:.4} {}",
-        plural(mesh.triangles().len(), "triangle"),
-        unit.symbol()
-    ));
-    if mesh.dropped_triangles() > 0 {
-        terminal.detail(&format!(
-            "{} without area left out",
-            plural(mesh.dropped_triangles(), "triangle")
-        ));
+    let diameter = object.geometry.diameter();
+    let (what, left_out) = match &object.geometry {
+        Geometry::Mesh(mesh) => (
+            format!("mesh: {}", plural(mesh.triangles().len(), "triangle")),
+            (mesh.dropped_triangles(), "triangle", "without area"),
+        ),
+        Geometry::Cloud(cloud) => (
+            format!("cloud: {}", plural(cloud.points().len(), "point")),
+            (cloud.dropped_duplicates(), "point", "that repeats another"),
+        ),
+    };
+    terminal.say(&format!("{what}, diameter {diameter:.4} {}", unit.symbol()));
+    let (count, noun, reason) = left_out;
+    if count > 0 {
+        terminal.detail(&format!("{} {reason} left out", plural(count, noun)));
     }
     let millimetres = diameter * f64::from(unit.millimetres());
     if object.moved_from.is_none() && !PLAUSIBLE_DIAMETER.contains(&millimetres) {
@@ -211,13 +221,9 @@ fn document<'a>(
         diameter: template.diameter(),
         radius: template.radius(),
         bytes: trained.bytes.len(),
-        sampling: match options.sampling {
-            SurfaceSampling::Cameras => "cameras",
-            SurfaceSampling::Poisson => "poisson",
-            SurfaceSampling::ReferencePoints => "reference-points",
-        },
-        points: options.points,
-        test_points: options.test_points,
+        sampling: options.sampling.name(),
+        points: trained.points,
+        test_points: trained.test_points,
         reference_points: match options.reference_points {
             ReferencePoints::KMeans { .. } => KMEANS,
             ReferencePoints::Em { .. } => EM,

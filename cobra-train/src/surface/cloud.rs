@@ -126,12 +126,32 @@ impl PointCloud {
     /// [`Purpose::CloudSplit`].
     #[must_use]
     pub fn split(&self, training_wanted: usize, test_wanted: usize, seed: u64) -> SplitCloud {
-        let mut training = self.points.clone();
-        training.shuffle(&mut stream(seed, Purpose::CloudSplit, 0));
-        let most = training.len() / 4 * 3 + training.len() % 4 * 3 / 4;
+        let mut training = self.shuffled(seed);
+        let most = self.most_training_points();
         let mut test = training.split_off(training_wanted.clamp(1, most));
         test.truncate(test_wanted.max(1));
         SplitCloud { training, test }
+    }
+
+    /// At most `wanted` points, at least one, that no [`PointCloud::split`] with this seed gives to
+    /// the training, however many it wants.
+    #[must_use]
+    pub fn test_points(&self, wanted: usize, seed: u64) -> Vec<Point3<f64>> {
+        let mut test = self.shuffled(seed).split_off(self.most_training_points());
+        test.truncate(wanted.max(1));
+        test
+    }
+
+    fn shuffled(&self, seed: u64) -> Vec<Point3<f64>> {
+        let mut points = self.points.clone();
+        points.shuffle(&mut stream(seed, Purpose::CloudSplit, 0));
+        points
+    }
+
+    /// 3n/4, rounded down.
+    fn most_training_points(&self) -> usize {
+        let count = self.points.len();
+        count / 4 * 3 + count % 4 * 3 / 4
     }
 }
 
@@ -188,6 +208,17 @@ mod tests {
         assert_eq!((sphere.radius, cloud.diameter()), (5.0, 10.0));
         let unit = cloud.normalised(&sphere).bounding_sphere();
         assert_eq!((unit.centre, unit.radius), (Point3::origin(), 1.0));
+    }
+
+    #[test]
+    fn test_points_are_in_no_training_of_the_same_seed() {
+        let cloud = PointCloud::new(line(103)).unwrap();
+        let test = bits(&cloud.test_points(usize::MAX, 5));
+        assert_eq!(test.len(), 26);
+        for wanted in [1, 40, 1000] {
+            let training = bits(&cloud.split(wanted, 10, 5).training);
+            assert!(training.is_disjoint(&test));
+        }
     }
 
     #[test]

@@ -7,15 +7,17 @@ use super::{TrainError, TrainOptions};
 use crate::random::Purpose;
 use crate::reference::Cluster;
 use crate::surface::{
-    BoundingSphere, Mesh, RayCaster, sample_from_within, sample_poisson, sample_visible,
+    BoundingSphere, Geometry, Mesh, PointCloud, RayCaster, SplitCloud, sample_from_within,
+    sample_poisson, sample_visible,
 };
 use nalgebra::Point3;
 
-/// How training points are drawn. Test points are always what cameras see: that is what will be
-/// scored.
+/// How training points are drawn on faces. Test points are always what cameras see: that is what
+/// will be scored. A point cloud is not drawn on: its own points are split.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SurfaceSampling {
-    /// First hits of rays from cameras around the object, as the paper.
+    /// First hits of rays from cameras around the object, as the paper. The only one that a point
+    /// cloud can be trained with.
     #[default]
     Cameras,
     /// Poisson-disk points: evenly spread on all faces, also on those that no camera sees.
@@ -25,8 +27,25 @@ pub enum SurfaceSampling {
     ReferencePoints,
 }
 
-/// A surface that points can be drawn on.
-pub(super) struct Surface {
+impl SurfaceSampling {
+    /// Its name on the command line and in reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Cameras => "cameras",
+            Self::Poisson => "poisson",
+            Self::ReferencePoints => "reference-points",
+        }
+    }
+}
+
+/// An object that points can be drawn on, in the unit sphere.
+pub(super) enum Surface {
+    Faces(Box<Faces>),
+    Points(PointCloud),
+}
+
+pub(super) struct Faces {
     mesh: Mesh,
     caster: RayCaster,
 }
@@ -39,29 +58,41 @@ pub(super) struct Drawn {
 }
 
 impl Surface {
-    pub(super) fn new(mesh: &Mesh, sphere: &BoundingSphere) -> Self {
-        let mesh = mesh.normalised(sphere);
-        Self {
-            caster: RayCaster::new(&mesh),
-            mesh,
+    pub(super) fn new(
+        object: &Geometry,
+        sphere: &BoundingSphere,
+        sampling: SurfaceSampling,
+    ) -> Result<Self, TrainError> {
+        match object {
+            Geometry::Mesh(mesh) => {
+                let mesh = mesh.normalised(sphere);
+                let caster = RayCaster::new(&mesh);
+                Ok(Self::Faces(Box::new(Faces { mesh, caster })))
+            }
+            Geometry::Cloud(cloud) if sampling == SurfaceSampling::Cameras => {
+                Ok(Self::Points(cloud.normalised(sphere)))
+            }
+            Geometry::Cloud(_) => Err(TrainError::NeedsFaces { sampling }),
         }
     }
 
     /// Training and test points, before there are reference points.
     pub(super) fn draw(&self, options: &TrainOptions) -> Result<Drawn, TrainError> {
-        let mut training: Vec<Point3<f64>> = sample_visible(
-            &self.mesh,
-            &self.caster,
-            options.points + options.test_points,
-            options.seed,
-            Purpose::Training,
-        )?
-        .into_iter()
-        .map(|point| point.position)
-        .collect();
-        let test = training.split_off(options.points);
+        let (points, test_points) = (options.points, options.test_points);
+        let Faces { mesh, caster } = match self {
+            Self::Faces(faces) => &**faces,
+            Self::Points(cloud) => {
+                let SplitCloud { training, test } = cloud.split(points, test_points, options.seed);
+                return Ok(Drawn { training, test });
+            }
+        };
+        let count = points + test_points;
+        let visible = sample_visible(mesh, caster, count, options.seed, Purpose::Training)?;
+        let mut training: Vec<Point3<f64>> =
+            visible.into_iter().map(|point| point.position).collect();
+        let test = training.split_off(points);
         if options.sampling == SurfaceSampling::Poisson {
-            training = sample_poisson(&self.mesh, options.points, options.seed);
+            training = sample_poisson(mesh, points, options.seed);
         }
         Ok(Drawn { training, test })
     }
@@ -74,17 +105,17 @@ impl Surface {
         clusters: &[Cluster],
         options: &TrainOptions,
     ) -> Result<Vec<Point3<f64>>, TrainError> {
-        match options.sampling {
-            SurfaceSampling::Cameras | SurfaceSampling::Poisson => Ok(drawn),
-            SurfaceSampling::ReferencePoints => {
+        match (self, options.sampling) {
+            (Self::Faces(faces), SurfaceSampling::ReferencePoints) => {
                 let centres: Vec<_> = clusters.iter().map(Cluster::centre).collect();
                 Ok(sample_from_within(
-                    &self.caster,
+                    &faces.caster,
                     &centres,
                     options.points,
                     options.seed,
                 )?)
             }
+            _ => Ok(drawn),
         }
     }
 }

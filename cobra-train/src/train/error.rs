@@ -1,6 +1,6 @@
 //! Why there is no template.
 
-use super::LARGEST_TEMPLATE;
+use super::{LARGEST_TEMPLATE, SurfaceSampling};
 use crate::gp::FitError;
 use crate::reference::ClusterError;
 use crate::surface::SampleError;
@@ -13,6 +13,16 @@ pub enum TrainError {
     /// No training or no test point was asked for.
     #[error("at least one training point and one test point are needed")]
     NoPoints,
+    /// A point cloud was to be drawn on.
+    #[error(
+        "sampling {}: draws points on faces, and a point cloud has none; its own points are split \
+         into training and test points with the default, cameras",
+        sampling.name()
+    )]
+    NeedsFaces {
+        /// How points were to be drawn.
+        sampling: SurfaceSampling,
+    },
     /// More components than the host scores with.
     #[error("{found} components, at most {LARGEST_TEMPLATE} are supported")]
     TooManyComponents {

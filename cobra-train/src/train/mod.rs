@@ -21,7 +21,7 @@ pub use place::{PLACEMENTS, ReferencePoints};
 use crate::gp::FittedGp;
 use crate::progress::Progress;
 use crate::reference::Cluster;
-use crate::surface::Mesh;
+use crate::surface::Geometry;
 use assemble::{Frame, ScaledComponent};
 use cobra_infer::Template;
 use draw::Surface;
@@ -34,6 +34,10 @@ pub const LARGEST_TEMPLATE: usize = 1024;
 pub struct Trained {
     /// The template file.
     pub bytes: Vec<u8>,
+    /// Training points that were used.
+    pub points: usize,
+    /// Test points that were used.
+    pub test_points: usize,
     /// What training found, one entry a component.
     pub components: Vec<TrainedComponent>,
 }
@@ -49,14 +53,15 @@ pub struct TrainedComponent {
     pub test_points: usize,
 }
 
-/// Trains a template of `mesh`.
+/// Trains a template of `object`, a mesh or a point cloud; of a cloud, at most ¾ of the points are
+/// for training and the rest for σ̂.
 ///
-/// The same mesh, options and build give the same bytes, whatever the number of threads.
+/// The same object, options and build give the same bytes, whatever the number of threads.
 ///
 /// # Errors
 /// [`TrainError`].
 pub fn train(
-    mesh: &Mesh,
+    object: &Geometry,
     options: &TrainOptions,
     progress: &dyn Progress,
 ) -> Result<Trained, TrainError> {
@@ -64,7 +69,7 @@ pub fn train(
         return Err(TrainError::NoPoints);
     }
     options.overlap.check()?;
-    let sphere = mesh.bounding_sphere();
+    let sphere = object.bounding_sphere();
     let step = |name| progress.start(name, 1);
     let done = || {
         progress.step();
@@ -72,7 +77,7 @@ pub fn train(
     };
 
     step("sampling the surface");
-    let surface = Surface::new(mesh, &sphere);
+    let surface = Surface::new(object, &sphere, options.sampling)?;
     let drawn = surface.draw(options)?;
     done();
     step("placing reference points");
@@ -90,7 +95,7 @@ pub fn train(
     let frame = Frame {
         options,
         sphere: &sphere,
-        diameter: mesh.diameter(),
+        diameter: object.diameter(),
     };
     let provisional = frame.encode(&scaled, &vec![sphere.radius as f32; scaled.len()])?;
     let (sigma_hats, test_counts) = sigma_hat::measure(
@@ -105,6 +110,8 @@ pub fn train(
     done();
     Ok(Trained {
         bytes,
+        points: training.len(),
+        test_points: drawn.test.len(),
         components: clusters
             .into_iter()
             .zip(fitted)

@@ -167,16 +167,48 @@ fn a_template_of_the_unit_sphere_is_measured_in_the_unit_sphere() {
 }
 
 #[test]
-fn points_without_faces_are_told_that_rays_need_them() {
+fn points_without_faces_are_split_into_training_and_test() {
     let scene = Scene::new();
-    let points: String = (0..20).map(|i| format!("{i} {} 0\n", i * i)).collect();
-    scene.write("cloud.xyz", points);
-    let words = ["train", "@cloud.xyz", "-o", "@part.cobra"];
-    refuse(
-        scene.arguments(&words),
-        3,
-        &["cloud.xyz", "20 vertices and no faces"],
-    );
+    let points: String = (0..400)
+        .map(f64::from)
+        .map(|i| {
+            let (turn, z) = (2.4 * i, i / 200.0 - 1.0);
+            let side = 40.0 * (1.0 - z * z).sqrt();
+            format!("{} {} {}\n", side * turn.cos(), side * turn.sin(), 40.0 * z)
+        })
+        .collect();
+    scene.write("ball.xyz", points);
+    let words = [
+        "train",
+        "@ball.xyz",
+        "-o",
+        "@ball.cobra",
+        "--components",
+        "2",
+    ];
+    let said = succeed(scene.arguments(&words)).stderr;
+    assert!(said.contains("cloud: 400 points"), "{said}");
+    let split = "300 points for training, 100 to measure sigma-hat";
+    assert!(said.contains(split), "{said}");
+    let words = ["eval", "@ball.cobra", "--mesh", "@ball.xyz", "--json", "-"];
+    let evaluated = json(&succeed(scene.arguments(&words)));
+    assert_eq!(evaluated["points"], 100);
+    assert!(evaluated["f_score"].as_f64().unwrap() > 95.0, "{evaluated}");
+    for sampling in ["poisson", "reference-points"] {
+        let words = [
+            "train",
+            "@ball.xyz",
+            "-o",
+            "@b.cobra",
+            "--sampling",
+            sampling,
+        ];
+        refuse(
+            scene.arguments(&words),
+            3,
+            &["ball.xyz", sampling, "has none"],
+        );
+    }
 }
 
 #[test]
