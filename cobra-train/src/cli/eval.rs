@@ -10,7 +10,7 @@ use cobra_infer::{Assignment, Template};
 use cobra_train::evaluate::{Evaluation, ResidualSummary, ShapeMetrics, evaluate, write_points};
 use cobra_train::progress::Progress;
 use cobra_train::random::Purpose;
-use cobra_train::surface::{Mesh, RayCaster, read_mesh, sample_visible};
+use cobra_train::surface::{Mesh, RayCaster, SampleError, read_mesh, sample_visible};
 use nalgebra::Point3;
 use serde::Serialize;
 use std::path::Path;
@@ -29,7 +29,8 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
     outputs::check(&[&arguments.template, &arguments.mesh], &written)?;
     let mesh = read_mesh(&arguments.mesh)?;
     warn_of_another_object(&template, &mesh, terminal);
-    let points = test_points(&mesh, arguments)?;
+    let points = evaluation_points(&mesh, arguments.points as usize, arguments.seed)
+        .map_err(|error| Failure::BadInput(format!("{}: {error}", arguments.mesh.display())))?;
     let chosen: Assignment = arguments.assignment.into();
     let evaluation = evaluate(&template, chosen, &points)?;
     let mut beside = Vec::new();
@@ -64,17 +65,17 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
     terminal.print(&text(&template, &rows, points.len()))
 }
 
-fn test_points(mesh: &Mesh, arguments: &EvalArguments) -> Result<Vec<Point3<f64>>, Failure> {
+/// Surface points drawn independently of those that a template is trained and measured on, in the
+/// mesh's frame and unit.
+pub(super) fn evaluation_points(
+    mesh: &Mesh,
+    count: usize,
+    seed: u64,
+) -> Result<Vec<Point3<f64>>, SampleError> {
     let sphere = mesh.bounding_sphere();
     let unit = mesh.normalised(&sphere);
-    let sampled = sample_visible(
-        &unit,
-        &RayCaster::new(&unit),
-        arguments.points as usize,
-        arguments.seed,
-        Purpose::Evaluation,
-    )
-    .map_err(|error| Failure::BadInput(format!("{}: {error}", arguments.mesh.display())))?;
+    let caster = RayCaster::new(&unit);
+    let sampled = sample_visible(&unit, &caster, count, seed, Purpose::Evaluation)?;
     Ok(sampled
         .iter()
         .map(|point| sphere.denormalise(&point.position))

@@ -1,12 +1,17 @@
 //! `cobra train`: a mesh becomes a template file.
 
 use super::args::{KernelArgument, TrainArguments};
+use super::coverage;
+use super::eval::evaluation_points;
 use super::failure::Failure;
+use super::learning;
 use super::outputs;
 use super::report::{JsonTarget, plural};
 use super::terminal::Terminal;
 use cobra_infer::template::NAME_CAPACITY;
 use cobra_infer::{Exponent, Model, Template, Unit};
+use cobra_train::coverage::{Coverage, coverage as measure};
+use cobra_train::gp::{Optimiser, PriorMean, Subset};
 use cobra_train::output::write_whole;
 use cobra_train::progress::Progress;
 use cobra_train::reference::read_reference_points;
@@ -30,23 +35,55 @@ pub(super) fn run(arguments: &TrainArguments, terminal: &Terminal) -> Result<(),
     let options = options(arguments)?;
     let mesh = read_mesh(&arguments.mesh)?;
     describe(&mesh, options.unit, terminal);
+    learning::warn_of_patience(&options, terminal);
     let trained = train(&mesh, &options, terminal)
         .map_err(|error| Failure::BadInput(format!("{}: {error}", arguments.mesh.display())))?;
     write_whole(&arguments.output, &trained.bytes)?;
     let template = Template::from_bytes(&trained.bytes)
         .map_err(|error| Failure::template(&arguments.output, &error))?;
+    let limit = options.fit.optimiser.iteration_limit();
+    learning::tell(&trained.components, limit, terminal);
+    let coverage = if arguments.coverage {
+        let found = calibrate(&mesh, &trained, options.seed, terminal);
+        Some(found.map_err(|why| {
+            Failure::BadInput(format!("{}: coverage: {why}", arguments.mesh.display()))
+        })?)
+    } else {
+        None
+    };
     let json = JsonTarget(arguments.json.as_ref());
-    json.write(&document(&template, &trained, &options), terminal)?;
-    if !json.replaces_the_table() {
-        terminal.print(&format!(
-            "{}: {}, {} terms, {} bytes",
-            arguments.output.display(),
-            plural(template.component_count(), "component"),
-            template.term_count(),
-            trained.bytes.len()
-        ))?;
+    let mut document = document(&template, &trained, &options);
+    document.coverage = coverage.as_ref();
+    json.write(&document, terminal)?;
+    if json.replaces_the_table() {
+        return Ok(());
+    }
+    terminal.print(&format!(
+        "{}: {}, {} terms, {} bytes",
+        arguments.output.display(),
+        plural(template.component_count(), "component"),
+        template.term_count(),
+        trained.bytes.len()
+    ))?;
+    if let Some(coverage) = &coverage {
+        let unit = template.unit().symbol();
+        terminal.print(&format!("\n{}", coverage::text(coverage, unit)))?;
     }
     Ok(())
+}
+
+fn calibrate(
+    mesh: &Mesh,
+    trained: &Trained,
+    seed: u64,
+    terminal: &Terminal,
+) -> Result<Coverage, String> {
+    terminal.start("measuring coverage", 1);
+    let points = evaluation_points(mesh, coverage::POINTS, seed).map_err(|e| e.to_string())?;
+    let found = measure(trained, &points).map_err(|e| e.to_string())?;
+    terminal.step();
+    terminal.finish();
+    Ok(found)
 }
 
 fn options(arguments: &TrainArguments) -> Result<TrainOptions, Failure> {
@@ -85,6 +122,7 @@ fn options(arguments: &TrainArguments) -> Result<TrainOptions, Failure> {
     options.test_points = arguments.test_points as usize;
     options.reference_points = reference_points;
     options.fit.model = model(arguments)?;
+    learning::choose(arguments, &mut options.fit);
     options.seed = arguments.seed;
     Ok(options)
 }
@@ -151,7 +189,15 @@ struct Document<'a> {
     seed: u64,
     metric: &'static str,
     kernel: &'static str,
+    optimiser: &'static str,
+    /// Points of each component that hyperparameters are learned on; null for all.
+    subset: Option<usize>,
+    prior_mean: &'static str,
+    /// Of the unit sphere.
+    noise_floor: f64,
     components: Vec<ComponentDocument>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    coverage: Option<&'a Coverage>,
 }
 
 #[derive(Serialize)]
@@ -171,7 +217,7 @@ struct ComponentDocument {
     /// Negative log marginal likelihood per point of the subset that it was learned on.
     likelihood_per_point: f64,
     iterations: u64,
-    stop: String,
+    stop: &'static str,
 }
 
 fn document<'a>(
@@ -191,6 +237,20 @@ fn document<'a>(
         seed: options.seed,
         metric: template.metric().name(),
         kernel: template.kernel().name(),
+        optimiser: match options.fit.optimiser {
+            Optimiser::Lbfgs => "lbfgs",
+            Optimiser::Adam(_) => "adam",
+        },
+        subset: match options.fit.subset {
+            Subset::Points(count) => Some(count),
+            Subset::All => None,
+        },
+        prior_mean: match options.fit.prior_mean {
+            PriorMean::Average => "average",
+            PriorMean::Zero => "zero",
+        },
+        noise_floor: options.fit.noise_floor,
+        coverage: None,
         components: template
             .components()
             .zip(&trained.components)
@@ -209,7 +269,7 @@ fn document<'a>(
                     noise_variance: h.noise_variance,
                     likelihood_per_point: learned.likelihood_per_point,
                     iterations: learned.iterations,
-                    stop: format!("{:?}", learned.stop).to_lowercase(),
+                    stop: learned.stop.name(),
                 }
             })
             .collect(),

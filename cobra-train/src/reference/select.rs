@@ -7,7 +7,7 @@
 
 use super::assign_nearest;
 use crate::evaluate::TAU;
-use crate::gp::{self, FitError, FitOptions};
+use crate::gp::{self, FitError, FitOptions, Optimiser, Subset};
 use crate::random::{Purpose, stream};
 use nalgebra::Point3;
 use rayon::prelude::*;
@@ -30,7 +30,9 @@ pub fn most_explanatory(
         return placements.into_iter().next();
     }
     let options = FitOptions {
-        subset: SUBSET,
+        subset: Subset::Points(SUBSET),
+        // Hundreds of fits are compared, of which only the order counts.
+        optimiser: Optimiser::Lbfgs,
         ..*options
     };
     let counts: Vec<usize> = placements

@@ -6,15 +6,13 @@
 mod assemble;
 mod sigma_hat;
 
-use crate::gp::{self, FitError, FitOptions, FittedGp, PriorMean};
+use crate::gp::{self, FitError, FitOptions, FittedGp};
 use crate::progress::Progress;
 use crate::random::{Purpose, stream};
 use crate::reference::{self, ClusterError};
 use crate::surface::{BoundingSphere, Mesh, RayCaster, SampleError, sample_visible};
 use assemble::{Frame, ScaledComponent};
-use cobra_infer::{
-    EncodeError, Exponent, Kernel, Model, ScoreError, Template, TemplateError, Unit,
-};
+use cobra_infer::{EncodeError, Exponent, Kernel, ScoreError, Template, TemplateError, Unit};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
@@ -66,11 +64,7 @@ impl TrainOptions {
             points: 10_000,
             test_points: 30_000,
             reference_points: ReferencePoints::KMeans { components: 16 },
-            fit: FitOptions {
-                model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
-                prior_mean: PriorMean::Average,
-                subset: 300,
-            },
+            fit: FitOptions::new(Kernel::RationalQuadratic(Exponent::One)),
             seed: 0,
         }
     }

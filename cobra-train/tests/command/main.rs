@@ -4,6 +4,7 @@ mod demo;
 mod eval;
 mod help;
 mod inspect;
+mod learning;
 mod output;
 mod run;
 mod scene;
