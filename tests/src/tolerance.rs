@@ -7,6 +7,9 @@ pub const DENSE_MEAN: f64 = 1e-8;
 /// Negative log marginal likelihood against the same, relative.
 pub const DENSE_LIKELIHOOD: f64 = 1e-9;
 
+/// Predictive variance against the same, as a share of the prior variance: as the mean.
+pub const DENSE_VARIANCE: f64 = 1e-8;
+
 /// Gradient of the likelihood against central differences of step 10⁻⁵, relative to the largest
 /// entry: their own truncation and rounding.
 pub const FINITE_DIFFERENCE: f64 = 1e-6;

@@ -16,6 +16,7 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("NO_DIRECTION", f64::from(applied::NO_DIRECTION)),
         ("DENSE_MEAN", asserted::DENSE_MEAN),
         ("DENSE_LIKELIHOOD", asserted::DENSE_LIKELIHOOD),
+        ("DENSE_VARIANCE", asserted::DENSE_VARIANCE),
         ("FINITE_DIFFERENCE", asserted::FINITE_DIFFERENCE),
         ("SINGLE_PRECISION_MEAN", asserted::SINGLE_PRECISION_MEAN),
         ("LEARNED", asserted::LEARNED),

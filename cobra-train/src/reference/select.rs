@@ -7,7 +7,7 @@
 
 use super::assign_nearest;
 use crate::evaluate::TAU;
-use crate::gp::{self, FitError, FitOptions, Optimiser, Subset};
+use crate::gp::{self, FitError, FitOptions, NOISE_FLOOR, Optimiser, Subset};
 use crate::random::{Purpose, stream};
 use nalgebra::Point3;
 use rayon::prelude::*;
@@ -31,8 +31,10 @@ pub fn most_explanatory(
     }
     let options = FitOptions {
         subset: Subset::Points(SUBSET),
-        // Hundreds of fits are compared, of which only the order counts.
+        // Hundreds of fits are compared, and the placement shall not depend on how the one that is
+        // chosen learns.
         optimiser: Optimiser::Lbfgs,
+        noise_floor: NOISE_FLOOR,
         ..*options
     };
     let counts: Vec<usize> = placements
