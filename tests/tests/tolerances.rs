@@ -20,6 +20,7 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("FINITE_DIFFERENCE", asserted::FINITE_DIFFERENCE),
         ("SINGLE_PRECISION_MEAN", asserted::SINGLE_PRECISION_MEAN),
         ("LEARNED", asserted::LEARNED),
+        ("OPTIMISERS_AGREE", asserted::OPTIMISERS_AGREE),
         ("ON_SURFACE", asserted::ON_SURFACE),
         ("REAL_CONFIDENCE", asserted::REAL_CONFIDENCE),
         ("EXACT_CONFIDENCE", asserted::EXACT_CONFIDENCE),

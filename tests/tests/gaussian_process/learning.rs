@@ -1,11 +1,11 @@
 //! Where learning ends, and that both optimisers end there.
 
 use crate::dense::{free, models, moved, patch, split};
-use cobra_infer::{Exponent, Kernel, Metric, Model};
+use cobra_infer::{Kernel, Metric, Model, Smoothness};
 use cobra_tests::data::real_data;
 use cobra_tests::tolerance;
 use cobra_train::gp::{
-    AdamOptions, Coordinates, Learned, NOISE_FLOOR, Optimiser, PAPER_NOISE_FLOOR, learn,
+    AdamOptions, Coordinates, Learned, NOISE_FLOOR, Optimiser, PAPER_NOISE_FLOOR, Subset, learn,
     negative_log_marginal_likelihood, search_box,
 };
 use cobra_train::progress::Silent;
@@ -56,19 +56,74 @@ fn both(model: Model) -> [Learned; 2] {
         .map(|optimiser| learn(model.kernel, &points, &y, &optimiser, NOISE_FLOOR).unwrap())
 }
 
+/// How far Adam's likelihood per point lies above L-BFGS-B's.
+fn gap(model: Model) -> f64 {
+    let [lbfgs, adam] = both(model);
+    adam.likelihood_per_point - lbfgs.likelihood_per_point
+}
+
+/// Where the two do not meet: torch's plateau scheduler, which counts overshoots of the momentum as
+/// standing still, ends Adam on the way, at most this far above. Matern 1/2 on unit vectors is on its
+/// way to the box's edge (0.022), the noise of a linear kernel that explains next to nothing to its
+/// optimum (0.066 on unit vectors, 0.007 on angles).
+const APART: [(Metric, Kernel, f64); 3] = [
+    (Metric::Chord, Kernel::Matern(Smoothness::Half), 0.03),
+    (Metric::Chord, Kernel::Linear, 0.07),
+    (Metric::Angles, Kernel::Linear, 0.01),
+];
+
+fn apart(model: Model) -> Option<f64> {
+    let mut apart = APART.into_iter();
+    let found =
+        apart.find(|(metric, kernel, _)| (*metric, *kernel) == (model.metric, model.kernel));
+    found.map(|(_, _, gap)| gap)
+}
+
 #[test]
 fn both_optimisers_reach_the_same_likelihood_where_the_problem_allows() {
-    for model in models() {
-        let [lbfgs, adam] = both(model);
-        println!(
-            "{model:?}: {} {} -> {:e}; {:?} / {:?} {:?} {:?}",
-            lbfgs.likelihood_per_point,
-            adam.likelihood_per_point,
-            adam.likelihood_per_point - lbfgs.likelihood_per_point,
-            lbfgs.hyperparameters,
-            adam.hyperparameters,
-            lbfgs.stop,
-            adam.stop
+    for model in models().filter(|model| apart(*model).is_none()) {
+        let gap = gap(model);
+        assert!(
+            gap.abs() < tolerance::OPTIMISERS_AGREE,
+            "{model:?}: {gap:e}"
         );
     }
+}
+
+#[test]
+fn where_adam_is_stopped_on_the_way_it_is_worse_by_little() {
+    for model in models() {
+        let Some(most) = apart(model) else { continue };
+        let gap = gap(model);
+        assert!(
+            (tolerance::OPTIMISERS_AGREE..most).contains(&gap),
+            "{model:?}: {gap:e}"
+        );
+    }
+}
+
+#[test]
+fn both_optimisers_reach_the_same_likelihood_on_a_real_screwdriver() {
+    let Some(data) = real_data("both optimisers on the screwdriver") else {
+        return;
+    };
+    let mesh = read_mesh(&data.join("screwdriver/model.ply")).unwrap();
+    let centre = mesh.bounding_sphere().centre;
+    let learned = [Optimiser::Lbfgs, Optimiser::Adam(AdamOptions::paper())].map(|optimiser| {
+        let mut options = TrainOptions::new("screwdriver");
+        options.points = 300;
+        options.test_points = 300;
+        options.reference_points = ReferencePoints::Given(vec![centre]);
+        options.fit.optimiser = optimiser;
+        options.fit.subset = Subset::All;
+        options.fit.noise_floor = PAPER_NOISE_FLOOR;
+        train(&mesh, &options, &Silent).unwrap().components[0]
+            .fitted
+            .learned
+    });
+    let [lbfgs, adam] = learned.map(|learned| learned.likelihood_per_point);
+    assert!(
+        (adam - lbfgs).abs() < tolerance::OPTIMISERS_AGREE,
+        "{lbfgs} {adam}"
+    );
 }
