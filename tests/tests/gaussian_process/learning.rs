@@ -5,12 +5,12 @@ use cobra_infer::{Kernel, Metric, Model, Smoothness};
 use cobra_tests::data::real_data;
 use cobra_tests::tolerance;
 use cobra_train::gp::{
-    AdamOptions, Coordinates, Learned, NOISE_FLOOR, Optimiser, PAPER_NOISE_FLOOR, Subset, learn,
-    negative_log_marginal_likelihood, search_box,
+    AdamOptions, Coordinates, Learned, NOISE_FLOOR, Optimiser, PAPER_NOISE_FLOOR, StopReason,
+    Subset, learn, negative_log_marginal_likelihood, search_box,
 };
 use cobra_train::progress::Silent;
 use cobra_train::surface::read_mesh;
-use cobra_train::train::{ReferencePoints, TrainOptions, train};
+use cobra_train::train::{TrainOptions, train};
 
 #[test]
 fn learning_ends_where_no_small_step_within_the_box_is_better() {
@@ -62,10 +62,9 @@ fn gap(model: Model) -> f64 {
     adam.likelihood_per_point - lbfgs.likelihood_per_point
 }
 
-/// Where the two do not meet: torch's plateau scheduler, which counts overshoots of the momentum as
-/// standing still, ends Adam on the way, at most this far above. Matern 1/2 on unit vectors is on its
-/// way to the box's edge (0.022), the noise of a linear kernel that explains next to nothing to its
-/// optimum (0.066 on unit vectors, 0.007 on angles).
+/// Where the two do not meet, and at most how far Adam stays above: its 250 iterations end on the way.
+/// Matern 1/2 on unit vectors is bound for the box's edge (measured 0.022), the noise of a linear
+/// kernel, which explains next to nothing, for its optimum (0.066 on unit vectors, 0.007 on angles).
 const APART: [(Metric, Kernel, f64); 3] = [
     (Metric::Chord, Kernel::Matern(Smoothness::Half), 0.03),
     (Metric::Chord, Kernel::Linear, 0.07),
@@ -94,6 +93,7 @@ fn both_optimisers_reach_the_same_likelihood_where_the_problem_allows() {
 fn where_adam_is_stopped_on_the_way_it_is_worse_by_little() {
     for model in models() {
         let Some(most) = apart(model) else { continue };
+        assert_eq!(both(model)[1].stop, StopReason::IterationLimit, "{model:?}");
         let gap = gap(model);
         assert!(
             (tolerance::OPTIMISERS_AGREE..most).contains(&gap),
@@ -103,27 +103,35 @@ fn where_adam_is_stopped_on_the_way_it_is_worse_by_little() {
 }
 
 #[test]
-fn both_optimisers_reach_the_same_likelihood_on_a_real_screwdriver() {
+fn both_optimisers_reach_the_same_likelihood_in_most_components_of_a_real_screwdriver() {
     let Some(data) = real_data("both optimisers on the screwdriver") else {
         return;
     };
     let mesh = read_mesh(&data.join("screwdriver/model.ply")).unwrap();
-    let centre = mesh.bounding_sphere().centre;
-    let learned = [Optimiser::Lbfgs, Optimiser::Adam(AdamOptions::paper())].map(|optimiser| {
-        let mut options = TrainOptions::new("screwdriver");
-        options.points = 300;
-        options.test_points = 300;
-        options.reference_points = ReferencePoints::Given(vec![centre]);
-        options.fit.optimiser = optimiser;
-        options.fit.subset = Subset::All;
-        options.fit.noise_floor = PAPER_NOISE_FLOOR;
-        train(&mesh, &options, &Silent).unwrap().components[0]
-            .fitted
-            .learned
-    });
-    let [lbfgs, adam] = learned.map(|learned| learned.likelihood_per_point);
-    assert!(
-        (adam - lbfgs).abs() < tolerance::OPTIMISERS_AGREE,
-        "{lbfgs} {adam}"
-    );
+    let [lbfgs, adam] =
+        [Optimiser::Lbfgs, Optimiser::Adam(AdamOptions::paper())].map(|optimiser| {
+            let mut options = TrainOptions::new("screwdriver");
+            options.points = 1600;
+            options.test_points = 300;
+            options.fit.optimiser = optimiser;
+            options.fit.subset = Subset::All;
+            options.fit.noise_floor = PAPER_NOISE_FLOOR;
+            let components = train(&mesh, &options, &Silent).unwrap().components;
+            components
+                .into_iter()
+                .map(|c| c.fitted.learned.likelihood_per_point)
+                .collect::<Vec<_>>()
+        });
+    let gaps: Vec<f64> = adam
+        .iter()
+        .zip(&lbfgs)
+        .map(|(adam, lbfgs)| adam - lbfgs)
+        .collect();
+    let meet = gaps
+        .iter()
+        .filter(|gap| gap.abs() < tolerance::OPTIMISERS_AGREE)
+        .count();
+    // Measured: 13 of 16; in the others, which explain their points badly, the 250 iterations end up to
+    // 0.12 above.
+    assert!(meet >= 12, "{gaps:?}");
 }
