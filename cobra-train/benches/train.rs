@@ -58,8 +58,7 @@ fn bench_steps(table: &mut Table<'_, '_>, object: &Object, size: &Size, options:
         .map(|centres| centres.into_iter().map(Cluster::round).collect())
         .collect();
     let choose = |placements| {
-        most_explanatory(&points, placements, &options.fit, options.seed)
-            .expect("there are several placements")
+        most_explanatory(&points, placements, options.seed).expect("there are several placements")
     };
     table.bench("choosing a placement", || choose(placements.clone()));
     let clusters = choose(placements);

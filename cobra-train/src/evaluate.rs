@@ -4,6 +4,8 @@
 //! mixture, so that what is measured is what will run.
 
 use crate::output::{WriteError, write_whole};
+use crate::random::Purpose;
+use crate::surface::{Geometry, RayCaster, SampleError, sample_visible};
 use crate::train::LARGEST_TEMPLATE;
 use cobra_infer::mixture::Match;
 use cobra_infer::{Assignment, Mixture, ScoreError, Settings, Template};
@@ -74,6 +76,31 @@ pub struct Evaluation {
     pub unmatched: usize,
     /// The predictions, in the order of the points; those without a match left out.
     pub predicted: Vec<PredictedPoint>,
+}
+
+/// At most `count` points to measure a template on, in the object's frame and unit: of a mesh,
+/// visible surface points drawn independently of the training's; of a cloud, which has no others,
+/// points that no training with the same seed uses.
+///
+/// # Errors
+/// [`SampleError`], of a mesh.
+pub fn evaluation_points(
+    object: &Geometry,
+    count: usize,
+    seed: u64,
+) -> Result<Vec<Point3<f64>>, SampleError> {
+    let mesh = match object {
+        Geometry::Mesh(mesh) => mesh,
+        Geometry::Cloud(cloud) => return Ok(cloud.test_points(count, seed)),
+    };
+    let sphere = mesh.bounding_sphere();
+    let unit = mesh.normalised(&sphere);
+    let caster = RayCaster::new(&unit);
+    let sampled = sample_visible(&unit, &caster, count, seed, Purpose::Evaluation)?;
+    Ok(sampled
+        .iter()
+        .map(|point| sphere.denormalise(&point.position))
+        .collect())
 }
 
 /// What the template says of each point, in the object's frame and the template's unit.

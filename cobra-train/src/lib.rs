@@ -22,6 +22,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod coverage;
 pub mod demo;
 pub mod evaluate;
 pub mod gp;

@@ -2,6 +2,7 @@
 
 use cobra_infer::Template;
 use cobra_tests::data::{files_below, real_data};
+use cobra_train::gp::Subset;
 use cobra_train::progress::Silent;
 use cobra_train::surface::read_geometry;
 use cobra_train::train::{ReferencePoints, TrainOptions, train};
@@ -16,7 +17,7 @@ fn outcome(path: &Path) -> Result<usize, String> {
         ..TrainOptions::new("mesh")
     };
     // Whether it trains is asked, not how well.
-    options.fit.subset = 50;
+    options.fit.subset = Subset::Points(50);
     let trained = train(&read.geometry, &options, &Silent).map_err(|error| error.to_string())?;
     let template = Template::from_bytes(&trained.bytes).map_err(|error| error.to_string())?;
     Ok(template.component_count())

@@ -1,5 +1,6 @@
 //! The arguments of `cobra`, with the help that goes with them.
 
+use super::learning::{OptimiserArgument, PriorMeanArgument, SubsetArgument, subset};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use cobra_infer::{Assignment, Exponent, Kernel, Likelihood, Metric, Smoothness, Threshold, Unit};
@@ -132,6 +133,19 @@ pub(crate) struct TrainArguments {
     #[arg(long, value_enum, default_value_t = MetricArgument::Chord)]
     pub(crate) metric: MetricArgument,
 
+    /// How hyperparameters are learned: L-BFGS-B, or the paper's Adam (rate 0.1, 250 iterations, on
+    /// all points, noise variance at least 1e-4)
+    #[arg(long, value_enum, default_value_t = OptimiserArgument::Lbfgs)]
+    pub(crate) optimiser: OptimiserArgument,
+
+    /// Points of a component that hyperparameters are learned on [default: 300; all with adam]
+    #[arg(long, value_name = "N|all", value_parser = subset)]
+    pub(crate) subset: Option<SubsetArgument>,
+
+    /// Distance far from all points: the component's average, or the paper's 0
+    #[arg(long, value_enum, default_value_t = PriorMeanArgument::Average)]
+    pub(crate) prior_mean: PriorMeanArgument,
+
     /// Unit that the file's numbers are in [default: mm, for glTF m]
     #[arg(long, value_enum)]
     pub(crate) unit: Option<UnitArgument>,
@@ -148,6 +162,11 @@ pub(crate) struct TrainArguments {
     /// Seed of all randomness
     #[arg(long, default_value_t = 0)]
     pub(crate) seed: u64,
+
+    /// Measure on fresh points how many residuals lie within z sigma, for the Gaussian process's
+    /// own sigma and for sigma-hat
+    #[arg(long)]
+    pub(crate) coverage: bool,
 
     /// Write what training found as JSON, `-` for standard output
     #[arg(long, value_name = "FILE|-")]

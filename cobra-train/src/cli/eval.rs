@@ -8,10 +8,11 @@ use super::report::{JsonTarget, plural, table};
 use super::template_file;
 use super::terminal::Terminal;
 use cobra_infer::{Assignment, Template};
-use cobra_train::evaluate::{Evaluation, ResidualSummary, ShapeMetrics, evaluate, write_points};
+use cobra_train::evaluate::{
+    Evaluation, ResidualSummary, ShapeMetrics, evaluate, evaluation_points, write_points,
+};
 use cobra_train::progress::Progress;
-use cobra_train::random::Purpose;
-use cobra_train::surface::{Geometry, RayCaster, sample_visible};
+use cobra_train::surface::Geometry;
 use nalgebra::Point3;
 use serde::Serialize;
 use std::path::Path;
@@ -65,38 +66,21 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
     terminal.print(&text(&template, &rows, points.len()))
 }
 
-/// Fresh points on a mesh's faces; of a cloud, points that no training with the same seed uses.
 fn test_points(
     object: &Geometry,
     arguments: &EvalArguments,
     terminal: &Terminal,
 ) -> Result<Vec<Point3<f64>>, Failure> {
-    let mesh = match object {
-        Geometry::Mesh(mesh) => mesh,
-        Geometry::Cloud(cloud) => {
-            let test = cloud.test_points(arguments.points as usize, arguments.seed);
-            terminal.say(&format!(
-                "cloud: {} that training with --seed {} leaves out",
-                plural(test.len(), "point"),
-                arguments.seed
-            ));
-            return Ok(test);
-        }
-    };
-    let sphere = mesh.bounding_sphere();
-    let unit = mesh.normalised(&sphere);
-    let sampled = sample_visible(
-        &unit,
-        &RayCaster::new(&unit),
-        arguments.points as usize,
-        arguments.seed,
-        Purpose::Evaluation,
-    )
-    .map_err(|error| Failure::BadInput(format!("{}: {error}", arguments.mesh.display())))?;
-    Ok(sampled
-        .iter()
-        .map(|point| sphere.denormalise(&point.position))
-        .collect())
+    let points = evaluation_points(object, arguments.points as usize, arguments.seed)
+        .map_err(|error| Failure::BadInput(format!("{}: {error}", arguments.mesh.display())))?;
+    if let Geometry::Cloud(_) = object {
+        terminal.say(&format!(
+            "cloud: {} that training with --seed {} leaves out",
+            plural(points.len(), "point"),
+            arguments.seed
+        ));
+    }
+    Ok(points)
 }
 
 fn warn_of_another_object(template: &Template<'_>, object: &Geometry, terminal: &Terminal) {

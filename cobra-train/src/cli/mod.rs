@@ -4,10 +4,12 @@
 //! another program could want is in the library.
 
 mod args;
+mod coverage;
 mod demo;
 mod eval;
 mod failure;
 mod inspect;
+mod learning;
 mod object;
 mod outputs;
 mod report;

@@ -1,13 +1,18 @@
 //! `cobra train`: a mesh becomes a template file.
 
 use super::args::{KernelArgument, TrainArguments};
+use super::coverage;
 use super::failure::Failure;
+use super::learning;
 use super::object::{self, Object};
 use super::outputs;
 use super::report::{JsonTarget, plural};
 use super::terminal::Terminal;
 use cobra_infer::template::NAME_CAPACITY;
 use cobra_infer::{Exponent, Model, Template, Unit};
+use cobra_train::coverage::{Coverage, coverage as measure};
+use cobra_train::evaluate::evaluation_points;
+use cobra_train::gp::{Optimiser, PriorMean, Subset};
 use cobra_train::output::write_whole;
 use cobra_train::progress::Progress;
 use cobra_train::reference::read_reference_points;
@@ -36,6 +41,7 @@ pub(super) fn run(arguments: &TrainArguments, terminal: &Terminal) -> Result<(),
     let object = object::read(&arguments.mesh, arguments.unit_sphere, terminal)?;
     options.unit = object.unit(arguments.unit, terminal);
     describe(&object, options.unit, terminal);
+    learning::warn_of_patience(&options, terminal);
     let trained = train(&object.geometry, &options, terminal)
         .map_err(|error| Failure::BadInput(format!("{}: {error}", arguments.mesh.display())))?;
     if let Geometry::Cloud(_) = object.geometry {
@@ -48,19 +54,49 @@ pub(super) fn run(arguments: &TrainArguments, terminal: &Terminal) -> Result<(),
     write_whole(&arguments.output, &trained.bytes)?;
     let template = Template::from_bytes(&trained.bytes)
         .map_err(|error| Failure::template(&arguments.output, &error))?;
+    let limit = options.fit.optimiser.iteration_limit();
+    learning::tell(&trained.components, limit, terminal);
+    let coverage = if arguments.coverage {
+        let found = calibrate(&object.geometry, &trained, options.seed, terminal);
+        Some(found.map_err(|why| {
+            Failure::BadInput(format!("{}: coverage: {why}", arguments.mesh.display()))
+        })?)
+    } else {
+        None
+    };
     let json = JsonTarget(arguments.json.as_ref());
-    let document = document(&template, &trained, &options, object.moved_from.as_ref());
+    let mut document = document(&template, &trained, &options, object.moved_from.as_ref());
+    document.coverage = coverage.as_ref();
     json.write(&document, terminal)?;
-    if !json.replaces_the_table() {
-        terminal.print(&format!(
-            "{}: {}, {} terms, {} bytes",
-            arguments.output.display(),
-            plural(template.component_count(), "component"),
-            template.term_count(),
-            trained.bytes.len()
-        ))?;
+    if json.replaces_the_table() {
+        return Ok(());
+    }
+    terminal.print(&format!(
+        "{}: {}, {} terms, {} bytes",
+        arguments.output.display(),
+        plural(template.component_count(), "component"),
+        template.term_count(),
+        trained.bytes.len()
+    ))?;
+    if let Some(coverage) = &coverage {
+        let unit = template.unit().symbol();
+        terminal.print(&format!("\n{}", coverage::text(coverage, unit)))?;
     }
     Ok(())
+}
+
+fn calibrate(
+    object: &Geometry,
+    trained: &Trained,
+    seed: u64,
+    terminal: &Terminal,
+) -> Result<Coverage, String> {
+    terminal.start("measuring coverage", 1);
+    let points = evaluation_points(object, coverage::POINTS, seed).map_err(|e| e.to_string())?;
+    let found = measure(trained, &points).map_err(|e| e.to_string())?;
+    terminal.step();
+    terminal.finish();
+    Ok(found)
 }
 
 fn options(arguments: &TrainArguments) -> Result<TrainOptions, Failure> {
@@ -82,6 +118,7 @@ fn options(arguments: &TrainArguments) -> Result<TrainOptions, Failure> {
     options.reference_points = reference_points(arguments)?;
     options.overlap = arguments.overlap;
     options.fit.model = model(arguments)?;
+    learning::choose(arguments, &mut options.fit);
     options.seed = arguments.seed;
     Ok(options)
 }
@@ -179,7 +216,15 @@ struct Document<'a> {
     kernel: &'static str,
     /// With `--unit-sphere`: a point P of the file is at scale * (P - centre).
     unit_sphere: Option<UnitSphereDocument>,
+    optimiser: &'static str,
+    /// Points of each component that hyperparameters are learned on; null for all.
+    subset: Option<usize>,
+    prior_mean: &'static str,
+    /// Of the unit sphere.
+    noise_floor: f64,
     components: Vec<ComponentDocument>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    coverage: Option<&'a Coverage>,
 }
 
 #[derive(Serialize)]
@@ -205,7 +250,7 @@ struct ComponentDocument {
     /// Negative log marginal likelihood per point of the subset that it was learned on.
     likelihood_per_point: f64,
     iterations: u64,
-    stop: String,
+    stop: &'static str,
 }
 
 fn document<'a>(
@@ -240,6 +285,20 @@ fn document<'a>(
             centre: sphere.centre.into(),
             scale: 1.0 / sphere.radius,
         }),
+        optimiser: match options.fit.optimiser {
+            Optimiser::Lbfgs => "lbfgs",
+            Optimiser::Adam(_) => "adam",
+        },
+        subset: match options.fit.subset {
+            Subset::Points(count) => Some(count),
+            Subset::All => None,
+        },
+        prior_mean: match options.fit.prior_mean {
+            PriorMean::Average => "average",
+            PriorMean::Zero => "zero",
+        },
+        noise_floor: options.fit.noise_floor,
+        coverage: None,
         components: template
             .components()
             .zip(&trained.components)
@@ -258,7 +317,7 @@ fn document<'a>(
                     noise_variance: h.noise_variance,
                     likelihood_per_point: learned.likelihood_per_point,
                     iterations: learned.iterations,
-                    stop: format!("{:?}", learned.stop).to_lowercase(),
+                    stop: learned.stop.name(),
                 }
             })
             .collect(),

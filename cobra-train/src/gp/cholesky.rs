@@ -5,6 +5,7 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, MatMut, Par};
 
 /// K = LLᵀ.
@@ -57,6 +58,19 @@ impl Cholesky {
             MemStack::new(&mut []),
         );
         x
+    }
+
+    /// bᵀK⁻¹b = ‖L⁻¹b‖²: never negative.
+    #[must_use]
+    pub fn quadratic_form(&self, b: &[f64]) -> f64 {
+        let mut x = b.to_vec();
+        let size = self.lower.nrows();
+        solve_lower_triangular_in_place(
+            self.lower.as_ref(),
+            MatMut::from_column_major_slice_mut(&mut x, size, 1),
+            Par::Seq,
+        );
+        x.iter().map(|x| x * x).sum()
     }
 
     /// log det K.

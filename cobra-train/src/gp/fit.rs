@@ -2,8 +2,8 @@
 
 use super::cholesky::{Cholesky, NotPositiveDefinite};
 use super::gram::{Coordinates, coordinates, covariances, gram};
-use super::optimise::{Learned, OptimiserError, learn};
-use cobra_infer::Model;
+use super::optimise::{Learned, NOISE_FLOOR, Optimiser, OptimiserError, learn};
+use cobra_infer::{Kernel, Model};
 use nalgebra::{Point3, UnitVector3};
 use rand::Rng;
 use rand::seq::index;
@@ -23,6 +23,15 @@ pub enum PriorMean {
     Average,
 }
 
+/// Which of a component's points hyperparameters are learned on; the weights are all points'.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subset {
+    /// So many, drawn at random; all where there are fewer.
+    Points(usize),
+    /// All of them.
+    All,
+}
+
 /// How a component is fitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitOptions {
@@ -30,15 +39,38 @@ pub struct FitOptions {
     pub model: Model,
     /// The prior mean.
     pub prior_mean: PriorMean,
-    /// How many points hyperparameters are learned on.
-    pub subset: usize,
+    /// The points that hyperparameters are learned on.
+    pub subset: Subset,
+    /// How they are learned.
+    pub optimiser: Optimiser,
+    /// The least noise variance η, greater than 0, in units of the unit sphere: [`NOISE_FLOOR`], or
+    /// [`PAPER_NOISE_FLOOR`](super::PAPER_NOISE_FLOOR).
+    pub noise_floor: f64,
+}
+
+impl FitOptions {
+    /// This project's choices: chord distance, average prior mean, L-BFGS-B on 300 points.
+    #[must_use]
+    pub const fn new(kernel: Kernel) -> Self {
+        Self {
+            model: Model::chord(kernel),
+            prior_mean: PriorMean::Average,
+            subset: Subset::Points(300),
+            optimiser: Optimiser::Lbfgs,
+            noise_floor: NOISE_FLOOR,
+        }
+    }
 }
 
 /// A fitted component, in the units of the points that it was fitted to.
 #[derive(Clone, Debug)]
 pub struct FittedGp {
+    /// Metric and covariance function.
+    pub model: Model,
     /// The training directions.
     pub directions: Vec<UnitVector3<f64>>,
+    /// d − m of each direction.
+    pub targets: Vec<f64>,
     /// v·K⁻¹(d − m): multiplies the unit-variance kernel.
     pub weights: Vec<f64>,
     /// m.
@@ -74,7 +106,7 @@ pub enum FitError {
 
 /// Fits d ~ GP(m, v·k) + noise to the distances of `points` from `centre` (Eqs. 1 to 5).
 ///
-/// Hyperparameters are learned on a random subset, the weights on all points.
+/// Hyperparameters are learned on `options.subset`, the weights on all points.
 ///
 /// # Errors
 /// [`FitError`].
@@ -104,7 +136,9 @@ pub fn fit(
         .map(|w| h.signal_variance * w)
         .collect();
     Ok(FittedGp {
+        model: options.model,
         directions,
+        targets,
         weights,
         prior_mean,
         learned,
@@ -113,7 +147,7 @@ pub fn fit(
 
 /// How many of the points a Gaussian process explains that was fitted to a few of them.
 ///
-/// The process is fitted to a random subset of `options.subset` points; a point is explained when
+/// The process is fitted to `options.subset`; a point is explained when
 /// the posterior mean in its direction lies within `tolerance` of its distance.
 ///
 /// # Errors
@@ -174,17 +208,26 @@ impl TrainingData {
         })
     }
 
-    /// A random subset, and the hyperparameters that make it most probable.
+    /// The subset, and the hyperparameters that make it most probable.
     fn learn(&self, options: &FitOptions, rng: &mut impl Rng) -> Result<(Self, Learned), FitError> {
         let found = self.targets.len();
-        let subset = index::sample(rng, found, options.subset.clamp(1, found)).into_vec();
+        let subset = match options.subset {
+            Subset::Points(count) => index::sample(rng, found, count.clamp(1, found)).into_vec(),
+            Subset::All => (0..found).collect(),
+        };
         let few = Self {
             directions: subset.iter().map(|&i| self.directions[i]).collect(),
             targets: subset.iter().map(|&i| self.targets[i]).collect(),
             prior_mean: self.prior_mean,
         };
         let points = Coordinates::new(options.model.metric, &few.directions);
-        let learned = learn(options.model.kernel, &points, &few.targets)?;
+        let learned = learn(
+            options.model.kernel,
+            &points,
+            &few.targets,
+            &options.optimiser,
+            options.noise_floor,
+        )?;
         Ok((few, learned))
     }
 }

@@ -1,16 +1,22 @@
-//! Gaussian processes of the distance over directions: likelihood, optimisation, fit.
+//! Gaussian processes of the distance over directions: likelihood, optimisation, fit, posterior.
 //!
-//! Owns learning. The covariance function itself and the posterior mean belong to `cobra-infer`,
-//! so that host and controller compute the same thing.
+//! Owns learning, and the predictive variance that only the host looks at. The covariance function
+//! itself and the posterior mean of a template belong to `cobra-infer`, so that host and controller
+//! compute the same thing.
 
 mod cholesky;
 mod fit;
 mod gram;
 mod likelihood;
 mod optimise;
+mod posterior;
 
 pub use cholesky::{Cholesky, NotPositiveDefinite};
-pub use fit::{FitError, FitOptions, FittedGp, LARGEST_GP, PriorMean, explained, fit};
+pub use fit::{FitError, FitOptions, FittedGp, LARGEST_GP, PriorMean, Subset, explained, fit};
 pub use gram::{Coordinates, Hyperparameters, coordinates, covariance, covariances, gram};
 pub use likelihood::{LikelihoodAndGradient, negative_log_marginal_likelihood};
-pub use optimise::{Learned, NOISE_FLOOR, OptimiserError, StopReason, learn};
+pub use optimise::{
+    AdamOptions, Learned, NOISE_FLOOR, Optimiser, OptimiserError, PAPER_NOISE_FLOOR,
+    PlateauOptions, SearchBox, StopReason, learn, search_box,
+};
+pub use posterior::{Posterior, Prediction};

@@ -7,8 +7,9 @@
 
 use super::{Cluster, members};
 use crate::evaluate::TAU;
-use crate::gp::{self, FitError, FitOptions};
+use crate::gp::{self, FitError, FitOptions, Subset};
 use crate::random::{Purpose, stream};
+use cobra_infer::{Exponent, Kernel};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
@@ -17,21 +18,24 @@ const SUBSET: usize = 100;
 
 /// The placement under which most points are explained, the first of equals.
 ///
+/// Points are explained by the rational quadratic with α = 1 on the chord, whatever kernel, metric
+/// and optimiser the template will have: which of them is best shall be compared on the same
+/// reference points, and hundreds of fits with a costly kernel take minutes.
+///
 /// Each point belongs to one cluster ([`members`]). `None` when there is no placement; a placement
 /// that leaves a cluster without points is the last choice.
 #[must_use]
 pub fn most_explanatory(
     points: &[Point3<f64>],
     placements: Vec<Vec<Cluster>>,
-    options: &FitOptions,
     seed: u64,
 ) -> Option<Vec<Cluster>> {
     if placements.len() < 2 {
         return placements.into_iter().next();
     }
     let options = FitOptions {
-        subset: SUBSET,
-        ..*options
+        subset: Subset::Points(SUBSET),
+        ..FitOptions::new(Kernel::RationalQuadratic(Exponent::One))
     };
     let counts: Vec<usize> = placements
         .par_iter()

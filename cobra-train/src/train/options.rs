@@ -1,8 +1,8 @@
 //! What to train, and the numbers that stand unless somebody says otherwise.
 
 use super::{Overlap, ReferencePoints, SurfaceSampling};
-use crate::gp::{FitOptions, PriorMean};
-use cobra_infer::{Exponent, Kernel, Model, Unit};
+use crate::gp::FitOptions;
+use cobra_infer::{Exponent, Kernel, Unit};
 
 /// What to train.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,11 +40,7 @@ impl TrainOptions {
             test_points: 30_000,
             reference_points: ReferencePoints::KMeans { components: 16 },
             overlap: Overlap::default(),
-            fit: FitOptions {
-                model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
-                prior_mean: PriorMean::Average,
-                subset: 300,
-            },
+            fit: FitOptions::new(Kernel::RationalQuadratic(Exponent::One)),
             seed: 0,
         }
     }

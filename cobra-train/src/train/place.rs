@@ -68,7 +68,7 @@ fn most_explanatory(
     placements: Vec<Vec<Cluster>>,
     options: &TrainOptions,
 ) -> Vec<Cluster> {
-    reference::most_explanatory(points, placements, &options.fit, options.seed).unwrap_or_default()
+    reference::most_explanatory(points, placements, options.seed).unwrap_or_default()
 }
 
 fn check_count(found: usize) -> Result<(), TrainError> {

@@ -20,10 +20,15 @@ fn words<'a>(more: &[&'a str]) -> Vec<&'a str> {
 fn the_json_has_the_documented_figures() {
     let scene = Scene::trained();
     let document = json(&succeed(scene.arguments(&words(&["--json", "-"]))));
-    assert_eq!(document["schema"], 1);
+    assert_eq!(document["schema"], 2);
     for key in ["chamfer", "precision", "recall", "f_score"] {
         assert!(document[key].as_f64().unwrap() > 0.0, "{key}: {document}");
-        assert!(document["other_rule"][key].is_number(), "{key}: {document}");
+        for other in 0..2 {
+            assert!(
+                document["other_rules"][other][key].is_number(),
+                "{key}: {document}"
+            );
+        }
     }
     let residual = |key: &str| document["residual"][key].as_f64().unwrap();
     assert!(residual("median") <= residual("p95"));

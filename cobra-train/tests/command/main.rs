@@ -6,6 +6,7 @@ mod eval;
 mod geometry_input;
 mod help;
 mod inspect;
+mod learning;
 mod output;
 mod placement;
 mod run;

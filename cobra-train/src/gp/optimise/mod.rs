@@ -1,0 +1,183 @@
+//! Learning hyperparameters: minimising the negative log marginal likelihood over a box.
+//!
+//! Owns the choice of the optimiser and what is told of a search: what it found and why it stopped.
+//!
+//! Both optimisers move the logarithms of the hyperparameters, from a start that the targets' mean
+//! square suggests, within [`search_box`]. GPyTorch moves raw values, all from 0, that softplus makes
+//! positive. On the screwdriver, after Adam's 250 iterations, logarithms gave a lower L/n in every one
+//! of 16 components (mean -3.182 against -3.169): the noise variance reaches its floor, which it only
+//! approaches through softplus, and ends 4 to 8 % above.
+
+mod adam;
+mod lbfgs;
+mod objective;
+mod plateau;
+mod search_box;
+
+pub use adam::AdamOptions;
+pub use plateau::PlateauOptions;
+pub use search_box::{SearchBox, search_box};
+
+use super::cholesky::NotPositiveDefinite;
+use super::gram::{Coordinates, Hyperparameters};
+use cobra_infer::kernel::Kernel;
+use objective::Objective;
+
+/// The smallest noise variance by default, in units of the unit sphere: below it, weights grow so
+/// large that the controller's `f32` sum loses more than a hundredth of σ̂.
+pub const NOISE_FLOOR: f64 = 1e-5;
+
+/// The smallest noise variance of the paper's recipe: GPyTorch's own, in units of the unit sphere.
+pub const PAPER_NOISE_FLOOR: f64 = 1e-4;
+
+/// How hyperparameters are searched for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Optimiser {
+    /// L-BFGS-B, at most 60 iterations.
+    Lbfgs,
+    /// Adam, the paper's.
+    Adam(AdamOptions),
+}
+
+impl Optimiser {
+    /// The most iterations it makes.
+    #[must_use]
+    pub const fn iteration_limit(&self) -> u64 {
+        match self {
+            Self::Lbfgs => lbfgs::ITERATIONS,
+            Self::Adam(options) => options.iterations,
+        }
+    }
+}
+
+/// Why learning stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum StopReason {
+    /// No entry of the gradient, projected on the box, is larger than the tolerance.
+    GradientSmall,
+    /// The likelihood stopped falling, to rounding.
+    LikelihoodFlat,
+    /// The rate fell below its least: the likelihood stopped falling by more than its threshold.
+    RateExhausted,
+    /// The iterations were used up.
+    IterationLimit,
+    /// The line search found no better point.
+    LineSearchStalled,
+    /// A Gram matrix on the way was not positive definite.
+    NotPositiveDefinite,
+}
+
+impl StopReason {
+    /// Whether the search ended before its own rule said that it was done.
+    #[must_use]
+    pub const fn is_early(self) -> bool {
+        match self {
+            Self::GradientSmall | Self::LikelihoodFlat | Self::RateExhausted => false,
+            Self::IterationLimit | Self::LineSearchStalled | Self::NotPositiveDefinite => true,
+        }
+    }
+
+    /// A word for programs.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::GradientSmall => "gradient-small",
+            Self::LikelihoodFlat => "likelihood-flat",
+            Self::RateExhausted => "rate-exhausted",
+            Self::IterationLimit => "iteration-limit",
+            Self::LineSearchStalled => "line-search-stalled",
+            Self::NotPositiveDefinite => "not-positive-definite",
+        }
+    }
+}
+
+impl std::fmt::Display for StopReason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::GradientSmall => "converged, the gradient is small",
+            Self::LikelihoodFlat => "converged, the likelihood stopped falling",
+            Self::RateExhausted => "converged, the plateau scheduler exhausted the rate",
+            Self::IterationLimit => "iteration limit",
+            Self::LineSearchStalled => "the line search found no better point",
+            Self::NotPositiveDefinite => "the Gram matrix became singular",
+        })
+    }
+}
+
+/// What learning found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Learned {
+    /// The best hyperparameters that were tried.
+    pub hyperparameters: Hyperparameters,
+    /// L/n there.
+    pub likelihood_per_point: f64,
+    /// Iterations used.
+    pub iterations: u64,
+    /// Why it stopped.
+    pub stop: StopReason,
+}
+
+/// Why nothing was learned.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum OptimiserError {
+    /// The Gram matrix is singular where the search starts.
+    #[error("hyperparameters could not be learned: {0}")]
+    NotPositiveDefinite(#[from] NotPositiveDefinite),
+    /// The optimiser refused the problem; the text is its own.
+    #[error("hyperparameters could not be learned: {0}")]
+    Refused(String),
+}
+
+/// Where an optimiser ended, in logarithms.
+struct Found {
+    logarithms: Vec<f64>,
+    value: f64,
+    iterations: u64,
+    stop: StopReason,
+}
+
+/// Minimises L(θ)/n over [`search_box`].
+///
+/// `points` are the directions, `y` the targets, at least one; `noise_floor` the least noise
+/// variance (unit sphere).
+///
+/// # Errors
+/// [`OptimiserError`].
+pub fn learn(
+    kernel: Kernel,
+    points: &Coordinates,
+    y: &[f64],
+    optimiser: &Optimiser,
+    noise_floor: f64,
+) -> Result<Learned, OptimiserError> {
+    let search_box = search_box(kernel, noise_floor);
+    let objective = Objective {
+        kernel,
+        points,
+        y,
+        search_box: search_box.clone(),
+    };
+    let found = match optimiser {
+        Optimiser::Lbfgs => lbfgs::minimise(objective, lbfgs::ITERATIONS)?,
+        Optimiser::Adam(options) => {
+            let best = adam::minimise(
+                objective.start(),
+                options,
+                |logarithms| objective.at(logarithms),
+                |logarithms| search_box.clamp(logarithms),
+            )?;
+            Found {
+                logarithms: best.variables,
+                value: best.value,
+                iterations: best.iterations,
+                stop: best.stop,
+            }
+        }
+    };
+    Ok(Learned {
+        hyperparameters: search_box.unpack(&found.logarithms),
+        likelihood_per_point: found.value,
+        iterations: found.iterations,
+        stop: found.stop,
+    })
+}

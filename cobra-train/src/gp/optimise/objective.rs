@@ -1,0 +1,46 @@
+//! What is minimised: the negative log marginal likelihood per point over logarithms.
+
+use super::search_box::SearchBox;
+use crate::gp::cholesky::NotPositiveDefinite;
+use crate::gp::gram::Coordinates;
+use crate::gp::likelihood::negative_log_marginal_likelihood;
+use cobra_infer::kernel::Kernel;
+
+/// L(θ)/n of targets `y` at directions `points`, at least one.
+#[derive(Clone, Debug)]
+pub(super) struct Objective<'a> {
+    pub(super) kernel: Kernel,
+    pub(super) points: &'a Coordinates,
+    pub(super) y: &'a [f64],
+    pub(super) search_box: SearchBox,
+}
+
+impl Objective<'_> {
+    /// The value and its gradient by the logarithms.
+    pub(super) fn at(&self, logarithms: &[f64]) -> Result<(f64, Vec<f64>), NotPositiveDefinite> {
+        let n = self.y.len() as f64;
+        let h = self.search_box.unpack(logarithms);
+        let found = negative_log_marginal_likelihood(self.kernel, &h, self.points, self.y)?;
+        let gradient = found.gradient.iter().map(|g| g / n).collect();
+        Ok((found.value / n, gradient))
+    }
+
+    /// Where a search starts: what the targets' mean square suggests.
+    pub(super) fn start(&self) -> Vec<f64> {
+        let n = self.y.len() as f64;
+        let mean_square = (self.y.iter().map(|y| y * y).sum::<f64>() / n).max(1e-8);
+        let mut start = vec![mean_square.ln(), (1e-3 * mean_square).ln()];
+        if self.kernel.fixed_length_scale().is_none() {
+            start.insert(0, 0.5_f64.ln());
+        }
+        if self.kernel.fixed_parameter().is_none() {
+            start.push(match self.kernel {
+                // One turn, of coordinates that are angles or differ by at most 2.
+                Kernel::Periodic => std::f64::consts::TAU.ln(),
+                _ => 0.0,
+            });
+        }
+        self.search_box.clamp(&mut start);
+        start
+    }
+}
