@@ -26,51 +26,73 @@ const fn angles(kernel: Kernel) -> Model {
 
 const ONE: Kernel = Kernel::RationalQuadratic(Exponent::One);
 
-/// Name, model, components, training points.
-const TEMPLATES: [(&str, Model, usize, usize); 13] = [
-    ("v1-exponent-one", chord(ONE), 4, 200),
-    (
+/// What to train.
+struct Golden {
+    name: &'static str,
+    model: Model,
+    place: fn(usize) -> ReferencePoints,
+    components: usize,
+    points: usize,
+}
+
+const fn golden(name: &'static str, model: Model, components: usize, points: usize) -> Golden {
+    Golden {
+        name,
+        model,
+        place: |components| ReferencePoints::KMeans { components },
+        components,
+        points,
+    }
+}
+
+const TEMPLATES: [Golden; 14] = [
+    golden("v1-exponent-one", chord(ONE), 4, 200),
+    golden(
         "v1-exponent-half",
         chord(Kernel::RationalQuadratic(Exponent::Half)),
         3,
         150,
     ),
-    (
+    golden(
         "v1-exponent-free",
         chord(Kernel::RationalQuadratic(Exponent::Free)),
         2,
         101,
     ),
-    ("v1-radial-basis", chord(Kernel::RadialBasis), 3, 90),
-    (
+    golden("v1-radial-basis", chord(Kernel::RadialBasis), 3, 90),
+    golden(
         "v1-matern-half",
         chord(Kernel::Matern(Smoothness::Half)),
         3,
         90,
     ),
-    (
+    golden(
         "v1-matern-three-halves",
         chord(Kernel::Matern(Smoothness::ThreeHalves)),
         2,
         61,
     ),
-    (
+    golden(
         "v1-matern-five-halves",
         chord(Kernel::Matern(Smoothness::FiveHalves)),
         2,
         61,
     ),
-    ("v1-linear", chord(Kernel::Linear), 4, 60),
-    ("v1-polynomial", chord(Kernel::Polynomial), 4, 60),
-    ("v1-periodic", chord(Kernel::Periodic), 3, 90),
-    ("v1-angles", angles(ONE), 3, 90),
-    (
+    golden("v1-linear", chord(Kernel::Linear), 4, 60),
+    golden("v1-polynomial", chord(Kernel::Polynomial), 4, 60),
+    golden("v1-periodic", chord(Kernel::Periodic), 3, 90),
+    golden("v1-angles", angles(ONE), 3, 90),
+    golden(
         "v1-angles-matern-three-halves",
         angles(Kernel::Matern(Smoothness::ThreeHalves)),
         2,
         61,
     ),
-    ("v1-angles-periodic", angles(Kernel::Periodic), 2, 61),
+    golden("v1-angles-periodic", angles(Kernel::Periodic), 2, 61),
+    Golden {
+        place: |components| ReferencePoints::Em { components },
+        ..golden("v1-precisions", chord(ONE), 4, 120)
+    },
 ];
 
 /// Those that were recorded before there was a soft assignment or another threshold than the
@@ -136,10 +158,11 @@ const ON_PART: usize = 24;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
-    for (index, (name, model, components, points)) in TEMPLATES.into_iter().enumerate() {
+    for (index, golden) in TEMPLATES.iter().enumerate() {
+        let name = golden.name;
         let template = folder.join(format!("{name}.cobra"));
         if !template.exists() {
-            std::fs::write(&template, trained(model, components, points)?)?;
+            std::fs::write(&template, trained(golden)?)?;
             println!("made {}", template.display());
         }
         let files: &[(&str, &[Rules])] = if index < FIRST {
@@ -161,12 +184,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn trained(model: Model, components: usize, points: usize) -> Result<Vec<u8>, Box<dyn Error>> {
+fn trained(golden: &Golden) -> Result<Vec<u8>, Box<dyn Error>> {
     let mut options = TrainOptions::new("bracket");
-    options.points = points;
+    options.points = golden.points;
     options.test_points = 2000;
-    options.reference_points = ReferencePoints::KMeans { components };
-    options.fit.model = model;
+    options.reference_points = (golden.place)(golden.components);
+    options.fit.model = golden.model;
     Ok(train(&mechanical_part().into(), &options, &Silent)?.bytes)
 }
 

@@ -20,7 +20,7 @@ macro_rules! golden {
 }
 
 /// Template, vectors, and how many cases these hold.
-const GOLDEN: [(&[u8], &str, usize); 16] = [
+const GOLDEN: [(&[u8], &str, usize); 17] = [
     golden!("exponent-one", "exponent-one", 32),
     golden!("exponent-half", "exponent-half", 32),
     golden!("exponent-free", "exponent-free", 32),
@@ -41,6 +41,7 @@ const GOLDEN: [(&[u8], &str, usize); 16] = [
         24
     ),
     golden!("angles-periodic", "angles-periodic", 24),
+    golden!("precisions", "precisions", 24),
 ];
 
 #[test]
@@ -62,6 +63,7 @@ fn every_kernel_metric_assignment_likelihood_and_threshold_is_recorded() {
     for metric in Metric::ALL {
         assert!(templates.iter().any(|template| template.metric() == metric));
     }
+    assert!(templates.iter().any(Template::has_precisions));
     let lines = GOLDEN.iter().flat_map(|(_, vectors, _)| vectors.lines());
     let cases: Vec<&str> = lines.filter(|line| line.starts_with("case")).collect();
     for assignment in ["nearest", "maximum", "soft"] {

@@ -4,6 +4,7 @@
 //! another program could want is in the library.
 
 mod args;
+mod choices;
 mod coverage;
 mod demo;
 mod eval;

@@ -3,7 +3,7 @@
 //!
 //! Owns what the user is told about the unit. Reading is `surface::read`'s work.
 
-use super::args::UnitArgument;
+use super::choices::UnitArgument;
 use super::failure::Failure;
 use super::terminal::Terminal;
 use cobra_infer::Unit;

@@ -1,6 +1,7 @@
 //! `cobra train`: a mesh becomes a template file.
 
-use super::args::{KernelArgument, TrainArguments};
+use super::args::TrainArguments;
+use super::choices::KernelArgument;
 use super::coverage;
 use super::failure::Failure;
 use super::learning;
