@@ -9,8 +9,8 @@ use nalgebra::Point3;
 
 /// How many results of clustering are compared.
 ///
-/// EM's are compared by what they explain as well: those of the best likelihood give F about one
-/// point lower on the screwdriver and the bunny.
+/// EM's are compared by what they explain as well: with 16 components, those of the best likelihood
+/// give F 0.9 lower on the screwdriver and on the bunny.
 pub const PLACEMENTS: usize = 32;
 
 /// Where the reference points come from.
