@@ -20,12 +20,12 @@ const POINTS: usize = 30_000;
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args_os().nth(1).ok_or("a folder is needed")?;
     let folder = PathBuf::from(folder);
-    println!("| file | holds | F | chamfer × 10³ | size |\n|---|---|---|---|---|");
+    println!("| file | holds | F | chamfer × 10³ |\n|---|---|---|---|");
     for path in files_below(&folder, &FORMATS) {
         let name = path.strip_prefix(&folder)?.display().to_string();
         match row(&path) {
             Ok(row) => println!("| `{name}` | {row} |"),
-            Err(error) => println!("| `{name}` | refused: {error} | | | |"),
+            Err(error) => println!("| `{name}` | refused: {error} | | |"),
         }
     }
     Ok(())
@@ -42,9 +42,7 @@ fn row(path: &Path) -> Result<String, Box<dyn Error>> {
     let points = evaluation_points(&object, POINTS, 0)?;
     let shape = evaluate(&template, Assignment::Nearest, &points)?.shape;
     Ok(format!(
-        "{holds} | {:.1} | {:.3} | {} kB",
-        shape.f_score,
-        shape.chamfer,
-        trained.bytes.len().div_ceil(1000)
+        "{holds} | {:.1} | {:.3}",
+        shape.f_score, shape.chamfer
     ))
 }

@@ -38,3 +38,11 @@ pub const EXACT_CONFIDENCE: f64 = 0.002;
 /// A simulated average against the threshold that stands for it, in standard errors: one in two
 /// million samples lies farther off.
 pub const MONTE_CARLO: f64 = 5.0;
+
+/// The rms residual of fresh points against the pooled σ̂, relative: a few points on folded surface
+/// make up most of either.
+pub const HELD_OUT: f64 = 0.15;
+
+/// F-score of an object before and after it is moved, in percentage points: other camera rays,
+/// other points, other k-means clusters.
+pub const SAME_SHAPE: f64 = 3.0;

@@ -29,11 +29,22 @@ fn every_mesh_and_cloud_trains_or_ends_in_one_clear_line() {
         return;
     };
     let formats = ["glb", "obj", "off", "ply", "stl"];
-    let paths: Vec<_> = ["meshes", "clouds", "screwdriver", "lmo/models"]
-        .iter()
-        .flat_map(|folder| files_below(&data.join(folder), &formats))
-        .collect();
+    let paths: Vec<_> = [
+        "meshes",
+        "clouds",
+        "screwdriver",
+        "lmo/models",
+        "lmo/models_eval",
+    ]
+    .iter()
+    .flat_map(|folder| files_below(&data.join(folder), &formats))
+    .collect();
     assert!(!paths.is_empty());
+    let page = include_str!("../../docs/INPUTS.md");
+    for path in &paths {
+        let name = path.strip_prefix(&data).unwrap_or(path).display();
+        assert!(page.contains(&format!("| `{name}` |")), "{name} has no row");
+    }
     let mut refused = 0;
     for path in &paths {
         match outcome(path) {

@@ -24,6 +24,8 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("ON_SURFACE", asserted::ON_SURFACE),
         ("REAL_CONFIDENCE", asserted::REAL_CONFIDENCE),
         ("MONTE_CARLO", asserted::MONTE_CARLO),
+        ("HELD_OUT", asserted::HELD_OUT),
+        ("SAME_SHAPE", asserted::SAME_SHAPE),
         ("EXACT_CONFIDENCE", asserted::EXACT_CONFIDENCE),
         ("ROUNDOFF", promised::ROUNDOFF),
         ("POSTERIOR_MEAN", promised::POSTERIOR_MEAN),

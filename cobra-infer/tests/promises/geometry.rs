@@ -4,6 +4,7 @@ use crate::content::direction;
 use crate::scene::{IDENTITY, camera};
 use crate::tolerance::{BACK_PROJECTION, ORTHONORMAL};
 use cobra_infer::Pose;
+use cobra_infer::gp::direction_and_distance;
 use nalgebra::{Matrix3, Point2, Point3, Rotation3};
 use proptest::prelude::*;
 
@@ -21,6 +22,18 @@ fn rotation() -> impl Strategy<Value = Rotation3<f32>> {
 
 proptest! {
     #![proptest_config(crate::seed::config())]
+
+    #[test]
+    fn a_direction_and_a_distance_give_the_point_back(
+        point in [-50.0_f32..50.0, -50.0_f32..50.0, -50.0_f32..50.0],
+        origin in [-50.0_f32..50.0, -50.0_f32..50.0, -50.0_f32..50.0],
+    ) {
+        prop_assume!(point != origin);
+        let (u, d) = direction_and_distance(point, origin, 0.0).unwrap();
+        let back = Point3::from(origin) + u.into_inner() * d;
+        let error = f64::from((back - Point3::from(point)).norm() / 50.0);
+        prop_assert!(error <= BACK_PROJECTION, "{error:e}");
+    }
 
     #[test]
     fn whatever_can_be_orthonormalised_becomes_a_rotation(
