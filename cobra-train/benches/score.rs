@@ -3,9 +3,7 @@
 
 mod support;
 
-use cobra_infer::{
-    Assignment, Camera, Correspondence, Exponent, Kernel, Pose, Settings, Template, score,
-};
+use cobra_infer::{Assignment, Camera, Correspondence, Kernel, Pose, Settings, Template, score};
 use cobra_train::demo::VIEW;
 use cobra_train::pose::{ObservationNoise, disturb, observe};
 use cobra_train::progress::Silent;
@@ -27,12 +25,6 @@ const POINTS_PER_CORRESPONDENCE: usize = 10;
 /// The estimate's error and the noise of what it saw, as shares of the object's radius: of the
 /// order that separates accepted from rejected poses.
 const ERROR: f64 = 0.02;
-
-const EXPONENTS: [(&str, Exponent); 3] = [
-    ("exponent 1", Exponent::One),
-    ("exponent ½", Exponent::Half),
-    ("exponent free", Exponent::Free),
-];
 
 fn main() {
     let size = Size::from_arguments();
@@ -79,10 +71,13 @@ fn measure(criterion: &mut Criterion, object: &Object, size: &Size) {
                 .expect("the template has no more components than there is room for")
         });
     };
-    for ((name, _), bytes) in EXPONENTS.iter().zip(&templates) {
-        bench(name, bytes, Assignment::Nearest);
+    for (kernel, bytes) in Kernel::ALL.iter().zip(&templates) {
+        bench(kernel.name(), bytes, Assignment::Nearest);
     }
-    bench("exponent 1, maximum", &templates[0], Assignment::Maximum);
+    for (rule, assignment) in [("maximum", Assignment::Maximum), ("soft", Assignment::Soft)] {
+        let name = format!("{}, {rule}", Kernel::ALL[0].name());
+        bench(&name, &templates[0], assignment);
+    }
 
     let cloud: Vec<[f32; 3]> = surface.iter().map(|p| p.cast::<f32>().into()).collect();
     let tree = ImmutableKdTree::<f32, 3>::new_from_slice(&cloud)
@@ -120,13 +115,13 @@ fn training_points(mesh: &Mesh, sphere: &BoundingSphere, size: &Size) -> Vec<Poi
         .collect()
 }
 
-/// One template for each of [`EXPONENTS`], all of them with the reference points of the first: a
+/// One template for each of [`Kernel::ALL`], all of them with the reference points of the first: a
 /// point then costs the same number of terms under each.
 fn templates(mesh: &Mesh, size: &Size) -> Vec<Vec<u8>> {
     let mut options = size.train_options();
     let mut templates = Vec::new();
-    for (_, exponent) in EXPONENTS {
-        options.fit.model.kernel = Kernel::RationalQuadratic(exponent);
+    for kernel in Kernel::ALL {
+        options.fit.model.kernel = kernel;
         let trained =
             train(&mesh.clone().into(), &options, &Silent).expect("both objects can be trained");
         if templates.is_empty() {

@@ -39,6 +39,8 @@ struct Document {
     kernel: &'static str,
     /// What the components' `parameter` is, where the kernel has one.
     parameter: Option<&'static str>,
+    /// The features of `cobra-infer` that a controller needs to read it.
+    features: Vec<&'static str>,
     /// Whether components carry a precision Q_k of their own.
     precisions: bool,
     terms: usize,
@@ -87,6 +89,9 @@ impl Document {
             metric: template.metric().name(),
             kernel: template.kernel().name(),
             parameter: template.kernel().parameter_name(),
+            features: std::iter::once(template.kernel().feature())
+                .chain(template.metric().feature())
+                .collect(),
             precisions: template.has_precisions(),
             terms: template.term_count(),
             bytes: Bytes {
@@ -151,6 +156,7 @@ fn text(document: &Document) -> String {
          sphere      radius {:.3} around ({x:.3}, {y:.3}, {z:.3})\n\
          diameter    {:.3}\n\
          kernel      {}, {} metric\n\
+         features    {} of cobra-infer, on the controller\n\
          components  {}\n\
          terms       {}\n\
          size        {} bytes: {} terms, {} component records, {} the rest\n\
@@ -160,6 +166,7 @@ fn text(document: &Document) -> String {
         document.diameter,
         document.kernel,
         document.metric,
+        document.features.join(" and "),
         document.components.len(),
         document.terms,
         bytes.total,
