@@ -79,7 +79,7 @@ impl Document {
         let records = template.component_count() * RECORD_LENGTH;
         let cost = template.cost();
         Self {
-            schema: 1,
+            schema: 2,
             name: template.name().to_owned(),
             format_version: VERSION,
             unit: template.unit().symbol(),

@@ -288,7 +288,7 @@ struct Document<'a> {
     likelihood: &'static str,
     assignment: &'static str,
     delta: f32,
-    threshold: &'static str,
+    threshold_rule: &'static str,
     /// σ for all components, where `--sigma-hat` gives it.
     sigma: Option<f32>,
     /// σ_m, where σ is the template's.
@@ -330,7 +330,7 @@ fn document<'a>(
             Assignment::Soft => "soft",
         },
         delta: settings.delta,
-        threshold: match settings.threshold {
+        threshold_rule: match settings.threshold {
             Threshold::Paper => "paper",
             Threshold::Mean => "mean",
             Threshold::Worst => "worst",

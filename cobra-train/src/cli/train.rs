@@ -261,7 +261,7 @@ fn document<'a>(
     moved_from: Option<&BoundingSphere>,
 ) -> Document<'a> {
     Document {
-        schema: 1,
+        schema: 2,
         name: template.name(),
         unit: template.unit().symbol(),
         diameter: template.diameter(),

@@ -13,7 +13,7 @@ fn the_table_and_the_json_tell_the_same_template() {
         "--json",
         "-",
     ])));
-    assert_eq!(document["schema"], 1);
+    assert_eq!(document["schema"], 2);
     assert_eq!(document["name"], "box");
     assert_eq!(document["unit"], "mm");
     assert_eq!(document["terms"], 300);

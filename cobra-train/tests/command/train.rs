@@ -14,7 +14,7 @@ fn words<'a>(more: &[&'a str]) -> Vec<&'a str> {
 fn the_json_has_the_documented_keys() {
     let scene = Scene::new();
     let document = json(&succeed(scene.arguments(&words(&["--json", "-"]))));
-    assert_eq!(document["schema"], 1);
+    assert_eq!(document["schema"], 2);
     assert_eq!(document["name"], "box");
     assert_eq!(document["unit"], "mm");
     assert_eq!(document["points"], 300);
