@@ -6,8 +6,8 @@ use cobra_train::coverage::{Calibration, Coverage, half_width};
 /// Points that coverage is measured on.
 pub(super) const POINTS: usize = 30_000;
 
-/// The table, lengths in `unit`.
-pub(super) fn text(coverage: &Coverage, unit: &str) -> String {
+/// The table, lengths in `unit`; `points` says what points these are.
+pub(super) fn text(coverage: &Coverage, points: &str, unit: &str) -> String {
     let columns = [&coverage.latent, &coverage.observed, &coverage.sigma_hat];
     let row = |name: String, z: String, cell: &dyn Fn(&Calibration) -> String| {
         let mut row = vec![name, z];
@@ -37,7 +37,7 @@ pub(super) fn text(coverage: &Coverage, unit: &str) -> String {
     ));
     let header = ["nominal", "z", "GP", "GP with noise", "sigma-hat"];
     format!(
-        "share of residuals within z sigma: {} points drawn anew, rms residual {:.4} {unit}\n\n{}",
+        "share of residuals within z sigma: {} {points}, rms residual {:.4} {unit}\n\n{}",
         coverage.points,
         coverage.rms_residual,
         table(&header, &["nominal"], &rows)

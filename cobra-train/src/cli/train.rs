@@ -81,7 +81,11 @@ pub(super) fn run(arguments: &TrainArguments, terminal: &Terminal) -> Result<(),
     ))?;
     if let Some(coverage) = &coverage {
         let unit = template.unit().symbol();
-        terminal.print(&format!("\n{}", coverage::text(coverage, unit)))?;
+        let points = match object.geometry {
+            Geometry::Mesh(_) => "points drawn anew",
+            Geometry::Cloud(_) => "points that training left out, as for sigma-hat",
+        };
+        terminal.print(&format!("\n{}", coverage::text(coverage, points, unit)))?;
     }
     Ok(())
 }
