@@ -13,10 +13,12 @@ mod lbfgs;
 mod objective;
 mod plateau;
 mod search_box;
+mod start;
 
 pub use adam::AdamOptions;
 pub use plateau::PlateauOptions;
 pub use search_box::{SearchBox, search_box};
+pub use start::Start;
 
 use super::cholesky::NotPositiveDefinite;
 use super::gram::{Coordinates, Hyperparameters};
@@ -151,6 +153,7 @@ pub fn learn(
     noise_floor: f64,
 ) -> Result<Learned, OptimiserError> {
     let search_box = search_box(kernel, noise_floor);
+    let start = |from: Start| from.logarithms(kernel, &search_box, y);
     let objective = Objective {
         kernel,
         points,
@@ -158,10 +161,10 @@ pub fn learn(
         search_box: search_box.clone(),
     };
     let found = match optimiser {
-        Optimiser::Lbfgs => lbfgs::minimise(objective, lbfgs::ITERATIONS)?,
+        Optimiser::Lbfgs => lbfgs::minimise(start(Start::Targets), objective, lbfgs::ITERATIONS)?,
         Optimiser::Adam(options) => {
             let best = adam::minimise(
-                objective.start(),
+                start(options.start),
                 options,
                 |logarithms| objective.at(logarithms),
                 |logarithms| search_box.clamp(logarithms),
