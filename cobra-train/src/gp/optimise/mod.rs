@@ -2,11 +2,12 @@
 //!
 //! Owns the choice of the optimiser and what is told of a search: what it found and why it stopped.
 //!
-//! Both optimisers move the logarithms of the hyperparameters, from a start that the targets' mean
-//! square suggests, within [`search_box`]. GPyTorch moves raw values, all from 0, that softplus makes
-//! positive. On the screwdriver, after Adam's 250 iterations, logarithms gave a lower L/n in every one
-//! of 16 components (mean -3.182 against -3.169): the noise variance reaches its floor, which it only
-//! approaches through softplus, and ends 4 to 8 % above.
+//! Both optimisers move the logarithms of the hyperparameters within [`search_box`], from the same
+//! start unless Adam's is said to be another. GPyTorch moves raw values, all from 0, that softplus
+//! makes positive. That recipe once ended, on the screwdriver after Adam's 250 iterations, at a mean
+//! L/n of -3.169 against -3.182 of logarithms, three of 16 components being equal to four digits; but
+//! the start differed as well. What of it is the parametrisation's is not known; the start alone moves
+//! the mean by up to 0.005 (`docs/LEARNING.md`).
 
 mod adam;
 mod lbfgs;
