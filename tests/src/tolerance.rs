@@ -22,8 +22,12 @@ pub const SINGLE_PRECISION_MEAN: f64 = 0.01;
 pub const LEARNED: f64 = 1e-9;
 
 /// Negative log likelihood per point that Adam reaches against L-BFGS-B's, on the same points from the
-/// same start: where a free exponent hardly matters, 250 iterations leave 6·10⁻⁴.
+/// same start, outside of the cases that the test names: where a free exponent hardly matters, 250 iterations leave 6·10⁻⁴.
 pub const OPTIMISERS_AGREE: f64 = 1e-3;
+
+/// How far Adam ends above L-BFGS-B in the cases that the test names, against the measured gap,
+/// relative: its two digits, and what another machine's rounding makes of 250 iterations.
+pub const OPTIMISERS_APART: f64 = 0.1;
 
 /// Distance of a sampled point from the mesh, in the unit sphere: a ray's length times rounding.
 pub const ON_SURFACE: f64 = 1e-9;

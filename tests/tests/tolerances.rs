@@ -21,6 +21,7 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("SINGLE_PRECISION_MEAN", asserted::SINGLE_PRECISION_MEAN),
         ("LEARNED", asserted::LEARNED),
         ("OPTIMISERS_AGREE", asserted::OPTIMISERS_AGREE),
+        ("OPTIMISERS_APART", asserted::OPTIMISERS_APART),
         ("ON_SURFACE", asserted::ON_SURFACE),
         ("REAL_CONFIDENCE", asserted::REAL_CONFIDENCE),
         ("MONTE_CARLO", asserted::MONTE_CARLO),

@@ -17,6 +17,6 @@ pub use gram::{Coordinates, Hyperparameters, coordinates, covariance, covariance
 pub use likelihood::{LikelihoodAndGradient, negative_log_marginal_likelihood};
 pub use optimise::{
     AdamOptions, Learned, NOISE_FLOOR, Optimiser, OptimiserError, PAPER_NOISE_FLOOR,
-    PlateauOptions, SearchBox, StopReason, learn, search_box,
+    PlateauOptions, SearchBox, Start, StopReason, learn, search_box,
 };
 pub use posterior::{Posterior, Prediction};

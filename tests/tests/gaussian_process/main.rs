@@ -5,4 +5,5 @@ mod dense;
 mod learning;
 mod likelihood;
 mod mean;
+mod optimisers;
 mod posterior;

@@ -3,7 +3,7 @@
 use crate::dense::{
     hyperparameters, independent_covariance, independent_gram, models, patch, split,
 };
-use cobra_infer::{Kernel, Metric, Model, Smoothness};
+use cobra_infer::{Exponent, Kernel, Metric, Model, Smoothness};
 use cobra_tests::tolerance;
 use cobra_train::gp::{FitOptions, Hyperparameters, Posterior, Subset, fit};
 use cobra_train::random::{Purpose, stream};
@@ -93,20 +93,26 @@ fn a_training_point_of_tiny_noise_is_known_and_no_variance_is_negative() {
 
 #[test]
 fn far_from_all_points_nothing_is_known_of_a_distance() {
-    // Only kernels that forget: the others know every direction from some.
+    // Only kernels that forget: the others know every direction from some. The length scales put the
+    // covariance with each of the 60 points below 1e-8: exponential tails forget at once, those of
+    // the rational quadratics as (l/r)^2α, with α = ½ as slowly as l/r, r being about 1.
     let forgetful = [
-        Kernel::RadialBasis,
-        Kernel::Matern(Smoothness::Half),
-        Kernel::Matern(Smoothness::ThreeHalves),
-        Kernel::Matern(Smoothness::FiveHalves),
+        (Kernel::RadialBasis, 0.02),
+        (Kernel::Matern(Smoothness::Half), 0.02),
+        (Kernel::Matern(Smoothness::ThreeHalves), 0.02),
+        (Kernel::Matern(Smoothness::FiveHalves), 0.02),
+        (Kernel::RationalQuadratic(Exponent::Half), 1e-9),
+        (Kernel::RationalQuadratic(Exponent::One), 1e-5),
+        // α = 0.7.
+        (Kernel::RationalQuadratic(Exponent::Free), 1e-7),
     ];
     let (u, y) = split(&patch(60));
     let opposite = UnitVector3::new_normalize(nalgebra::Vector3::new(0.1, -0.2, -1.0));
-    for kernel in forgetful {
+    for (kernel, length_scale) in forgetful {
         for metric in Metric::ALL {
             let model = Model { metric, kernel };
             let h = Hyperparameters {
-                length_scale: 0.02,
+                length_scale,
                 ..hyperparameters(kernel)
             };
             let posterior = Posterior::new(model, &h, 0.7, &u, &y).unwrap();

@@ -3,16 +3,20 @@
 //! Owns the update of D. P. Kingma and J. Ba, Adam: A Method for Stochastic Optimization, ICLR 2015,
 //! algorithm 1, on any function with a gradient. Does not own what the variables mean.
 
-use super::StopReason;
 use super::plateau::{Plateau, PlateauOptions};
+use super::{Start, StopReason};
 
 /// How Adam searches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdamOptions {
     /// The rate at the start.
     pub rate: f64,
-    /// Decay of the running means of the gradient and of its square.
-    pub betas: (f64, f64),
+    /// Where the search starts.
+    pub start: Start,
+    /// Decay of the gradient's running mean, β₁.
+    pub first_decay: f64,
+    /// Decay of the running mean of its square, β₂.
+    pub second_decay: f64,
     /// Added to the root of the mean square, so that a vanishing gradient divides by something.
     pub epsilon: f64,
     /// When the rate falls.
@@ -26,11 +30,17 @@ pub struct AdamOptions {
 impl AdamOptions {
     /// The paper's: rate 0.1, times 0.1 after 10 iterations without improvement. What it leaves
     /// open is torch's default, with 250 iterations and an end at a rate of 10⁻⁶.
+    ///
+    /// Not GPyTorch's is the start: `docs/LEARNING.md` compares the two. In the mean of 16
+    /// components of some 600 points they end within 0.005 of each other per point, either ahead;
+    /// of 100 points, [`Start::Softplus`] ends 0.014 to 0.054 above [`Start::Targets`].
     #[must_use]
     pub const fn paper() -> Self {
         Self {
             rate: 0.1,
-            betas: (0.9, 0.999),
+            start: Start::Targets,
+            first_decay: 0.9,
+            second_decay: 0.999,
             epsilon: 1e-8,
             plateau: PlateauOptions {
                 factor: 0.1,
@@ -76,8 +86,8 @@ pub(super) fn minimise<E>(
     let mut rate = options.rate;
     let mut plateau = Plateau::new(options.plateau);
     let mut moments = vec![(0.0, 0.0); variables.len()];
-    let (first, second) = options.betas;
-    // The powers of the betas, by which the running means are too small at first.
+    let (first, second) = (options.first_decay, options.second_decay);
+    // The powers of the decays, by which the running means are too small at first.
     let (mut first_power, mut second_power) = (1.0, 1.0);
     while best.iterations < options.iterations {
         best.iterations += 1;

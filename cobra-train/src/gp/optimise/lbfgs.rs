@@ -21,8 +21,11 @@ const GRADIENT_TOLERANCE: f64 = 1e-4;
 /// What a singular Gram matrix counts as: a wall that the line search turns back from.
 const WALL: f64 = 1e10;
 
-pub(super) fn minimise(objective: Objective<'_>, iterations: u64) -> Result<Found, OptimiserError> {
-    let start = objective.start();
+pub(super) fn minimise(
+    start: Vec<f64>,
+    objective: Objective<'_>,
+    iterations: u64,
+) -> Result<Found, OptimiserError> {
     let wall = Cell::new(None);
     let problem = Problem {
         objective,

@@ -24,23 +24,4 @@ impl Objective<'_> {
         let gradient = found.gradient.iter().map(|g| g / n).collect();
         Ok((found.value / n, gradient))
     }
-
-    /// Where a search starts: what the targets' mean square suggests.
-    pub(super) fn start(&self) -> Vec<f64> {
-        let n = self.y.len() as f64;
-        let mean_square = (self.y.iter().map(|y| y * y).sum::<f64>() / n).max(1e-8);
-        let mut start = vec![mean_square.ln(), (1e-3 * mean_square).ln()];
-        if self.kernel.fixed_length_scale().is_none() {
-            start.insert(0, 0.5_f64.ln());
-        }
-        if self.kernel.fixed_parameter().is_none() {
-            start.push(match self.kernel {
-                // One turn, of coordinates that are angles or differ by at most 2.
-                Kernel::Periodic => std::f64::consts::TAU.ln(),
-                _ => 0.0,
-            });
-        }
-        self.search_box.clamp(&mut start);
-        start
-    }
 }

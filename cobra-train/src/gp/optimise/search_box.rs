@@ -79,6 +79,11 @@ impl SearchBox {
         (values(h).iter().zip(lower).zip(upper)).all(|((h, low), high)| (low..=high).contains(h))
     }
 
+    /// The least noise variance.
+    pub(super) const fn noise_floor(&self) -> f64 {
+        self.noise_floor
+    }
+
     /// Brings logarithms into the box.
     pub(super) fn clamp(&self, logarithms: &mut [f64]) {
         for ((value, low), high) in logarithms.iter_mut().zip(&self.lower).zip(&self.upper) {
