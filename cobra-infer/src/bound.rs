@@ -13,6 +13,9 @@
 //!
 //! and each of these divided by √(2π)σ under the density, which for `Paper` is Eq. 11 as printed.
 //!
+//! All this is of residuals of the one component that speaks for a point, the nearest or the
+//! likeliest; a mixture lies below its best component, and of it nothing is promised.
+//!
 //! Only `Worst` is a promise about one pose: if every residual is within δ, the confidence reaches
 //! it. `Mean` and `Paper` speak of the average over many poses whose residuals spread evenly in ±δ.
 //! `Paper` lies below `Worst`, and so accepts every pose within δ, only up to δ = 1.585 σ (where
@@ -44,26 +47,44 @@ const HALF_SQRT_PI: f32 = 0.886_226_95;
 /// for [`Likelihood::Density`].
 #[must_use]
 pub fn contribution(likelihood: Likelihood, threshold: Threshold, sigma: f32, delta: f32) -> f32 {
-    let ratio = delta / sigma;
-    let x = 0.5 * ratio * ratio;
-    let peak = match threshold {
-        // The limit of (1 − e^−x)/(2x) for x → 0.
-        Threshold::Paper if x < f32::MIN_POSITIVE => 0.5,
-        Threshold::Paper if x.is_finite() => -math::exp_minus_one(-x) / (2.0 * x),
-        Threshold::Mean if x < f32::MIN_POSITIVE => 1.0,
-        Threshold::Mean if x.is_finite() => mean(x.square_root()),
-        Threshold::Worst => math::exp(-x),
-        Threshold::Paper | Threshold::Mean => 0.0,
-    };
-    match likelihood {
-        Likelihood::Peak => peak,
-        Likelihood::Density => peak / (SQRT_TWO_PI * sigma),
+    let half_square = |ratio: f32| 0.5 * ratio * ratio;
+    // As the scorer computes a residual of δ, so that rounding never puts that below its threshold.
+    let inverse_sigma = 1.0 / sigma;
+    let as_scored = half_square(delta * inverse_sigma);
+    match threshold {
+        Threshold::Paper => {
+            let peak = paper(half_square(delta / sigma));
+            match likelihood {
+                Likelihood::Peak => peak,
+                Likelihood::Density => peak / (SQRT_TWO_PI * sigma),
+            }
+        }
+        Threshold::Mean => likelihood.of_peak(mean(as_scored), inverse_sigma),
+        Threshold::Worst => likelihood.of_peak(math::exp(-as_scored), inverse_sigma),
     }
 }
 
-/// (√π/2)·erf(y)/y, which rounding may lift above its limit of 1.
-fn mean(y: f32) -> f32 {
-    let mean = HALF_SQRT_PI * math::error_function(y) / y;
+/// (1 − e^−x)/(2x) for x ≥ 0 or infinite.
+fn paper(x: f32) -> f32 {
+    if x < f32::MIN_POSITIVE {
+        0.5
+    } else if x.is_finite() {
+        -math::exp_minus_one(-x) / (2.0 * x)
+    } else {
+        0.0
+    }
+}
+
+/// (√π/2)·erf(√x)/√x for x ≥ 0 or infinite; rounding may lift it above its limit of 1.
+fn mean(x: f32) -> f32 {
+    if x < f32::MIN_POSITIVE {
+        return 1.0;
+    }
+    if !x.is_finite() {
+        return 0.0;
+    }
+    let root = x.square_root();
+    let mean = HALF_SQRT_PI * math::error_function(root) / root;
     if mean > 1.0 { 1.0 } else { mean }
 }
 

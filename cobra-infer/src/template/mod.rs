@@ -8,6 +8,7 @@
 mod encode;
 mod encode_error;
 mod error;
+mod near;
 mod precision;
 mod validate;
 mod wire;
@@ -162,6 +163,14 @@ impl<'a> Template<'a> {
         })
     }
 
+    /// Component `index`, read from its record.
+    #[must_use]
+    pub fn component(&self, index: usize) -> Option<Component<'a>> {
+        let precision = self.precisions.and_then(|factors| factors.get(index));
+        let record = self.records.get(index)?;
+        Some(wire::component(record, precision, self.words))
+    }
+
     /// The number of kernel evaluations that one point costs.
     #[must_use]
     pub fn cost(&self) -> Cost {
@@ -177,7 +186,8 @@ impl<'a> Template<'a> {
 }
 
 impl Component<'_> {
-    /// The posterior mean of the distance in direction `u`, in the template's unit (Eq. 5).
+    /// The posterior mean of the distance in direction `u`, in the template's unit (Eq. 5). Not
+    /// finite where a term or the sum overflows; scoring then takes the component for silent.
     #[must_use]
     pub fn posterior_mean(&self, model: Model, u: &UnitDirection) -> f32 {
         gp::posterior_mean(model, &self.hyperparameters, &self.terms, u)

@@ -1,7 +1,7 @@
 //! The precision Q_k of a component's neighbourhood.
 
+use super::wire::PrecisionRecord;
 use crate::math;
-use core::f32;
 
 /// Q = LLᵀ of Eq. 8, by its factor L, a lower triangle with a positive diagonal: whatever its
 /// numbers, Q is positive definite, which no six entries of Q itself would say after rounding.
@@ -19,6 +19,13 @@ impl Precision {
         let positive = [xx, yy, zz].iter().all(|d| *d >= f32::MIN_POSITIVE);
         let finite = lower.iter().all(|entry| entry.is_finite());
         (positive && finite).then_some(Self { lower })
+    }
+
+    /// A factor that loading has checked.
+    pub(super) fn from_validated(factor: &PrecisionRecord) -> Self {
+        Self {
+            lower: factor.map(f32::from_le_bytes),
+        }
     }
 
     /// L row by row.

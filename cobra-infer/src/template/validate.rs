@@ -289,7 +289,7 @@ fn check_components(template: &Template<'_>) -> Result<(), TemplateError> {
                 name,
                 "positive, and 2*exponent*(length scale)^2 finite and no subnormal",
                 p,
-                positive(2.0 * p * l * l),
+                positive(p) && positive(2.0 * p * l * l),
             )?,
             (_, None) => number(name, normal, p, positive(p))?,
         }

@@ -224,6 +224,16 @@ pub(super) fn term_words<'a>(record: &Record, words: &'a [Word]) -> Option<&'a [
     words.get(start..start.checked_add(length)?)
 }
 
+/// P − C_k.
+pub(super) fn offset(record: &Record, [px, py, pz]: [f32; 3]) -> [f32; 3] {
+    let [x, y, z, ..] = *record;
+    [
+        px - f32::from_le_bytes(x),
+        py - f32::from_le_bytes(y),
+        pz - f32::from_le_bytes(z),
+    ]
+}
+
 /// The component of a validated record; a record that was not validated has no terms.
 pub(super) fn component<'a>(
     record: &Record,
@@ -236,8 +246,7 @@ pub(super) fn component<'a>(
     Component {
         centre: [x, y, z],
         sigma_hat,
-        precision: precision
-            .and_then(|factor| Precision::from_factor(factor.map(f32::from_le_bytes))),
+        precision: precision.map(Precision::from_validated),
         hyperparameters: Hyperparameters {
             length_scale,
             parameter,

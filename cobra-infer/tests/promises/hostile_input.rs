@@ -7,7 +7,8 @@
 
 use crate::content::{Content, content};
 use crate::scene::{
-    COMPONENTS, EVERY_RULE, IDENTITY, camera, correspondence, has_nan, pose, settings, stream,
+    COMPONENTS, EVERY_RULE, IDENTITY, THRESHOLDS, camera, correspondence, has_nan, pose, settings,
+    stream,
 };
 use crate::template_mutations::SPECIAL;
 use crate::tolerance::CONFIDENCE;
@@ -89,6 +90,7 @@ proptest! {
     #[test]
     fn nothing_is_ever_nan_and_the_peak_confidence_is_between_0_and_1(
         content in content(),
+        threshold in select(&THRESHOLDS[..]),
         rule in select(&EVERY_RULE[..]),
         sigma in hostile_sigma(),
         delta in number(),
@@ -107,6 +109,7 @@ proptest! {
         let (assignment, likelihood) = rule;
         let settings = Settings {
             delta,
+            threshold,
             minimum_points: 1,
             ..settings(assignment, likelihood, sigma)
         };
@@ -126,7 +129,7 @@ proptest! {
         prop_assert!(report.behind_camera <= report.points);
         prop_assert!((0.0..=1.0).contains(&report.inlier_share));
         if likelihood == Likelihood::Peak {
-            prop_assert!(report.confidence <= 1.0 && report.threshold <= 0.5, "{report:?}");
+            prop_assert!(report.confidence <= 1.0 && report.threshold <= 1.0, "{report:?}");
         }
         if report.decision == Decision::Accept {
             prop_assert!(report.confidence > 0.0 && report.confidence >= report.threshold);

@@ -8,10 +8,11 @@
 use crate::content::{Content, content};
 use crate::scene::{COMPONENTS, EVERY_RULE, camera, observed};
 use crate::tolerance::{MOVED, REORDERED};
+use cobra_infer::template::Precision;
 use cobra_infer::{
     Correspondence, Kernel, Metric, Pose, Report, Scorer, Settings, Sigma, Template,
 };
-use nalgebra::{Point3, Rotation3, Unit, UnitVector3, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3, Unit, UnitVector3, Vector3};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -101,9 +102,7 @@ fn in_unit(content: &Content, factor: f32) -> Content {
         scale(&mut part.hyperparameters.prior_mean);
         part.weights.iter_mut().for_each(scale);
         part.precision = part.precision.and_then(|precision| {
-            cobra_infer::template::Precision::from_factor(
-                precision.factor().map(|entry| entry / factor),
-            )
+            Precision::from_factor(precision.factor().map(|entry| entry / factor))
         });
     }
     content
@@ -116,6 +115,7 @@ fn in_frame(content: &Content, rotation: &Rotation3<f32>, shift: &Vector3<f32>) 
     content.centre = moved(content.centre);
     for part in &mut content.parts {
         part.centre = moved(part.centre);
+        part.precision = part.precision.map(|precision| turned(&precision, rotation));
         for u in &mut part.directions {
             let turned: UnitVector3<f32> = Unit::new_normalize(rotation * u.into_inner());
             *u = turned;
@@ -124,11 +124,19 @@ fn in_frame(content: &Content, rotation: &Rotation3<f32>, shift: &Vector3<f32>) 
     content
 }
 
+/// R Q Rᵀ by its factor.
+fn turned(precision: &Precision, rotation: &Rotation3<f32>) -> Precision {
+    let [xx, yx, yy, zx, zy, zz] = precision.factor().map(f64::from);
+    let lower = Matrix3::new(xx, 0., 0., yx, yy, 0., zx, zy, zz);
+    let turned = rotation.matrix().cast::<f64>() * lower;
+    let lower = (turned * turned.transpose()).cholesky().unwrap().l();
+    let entries = [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)];
+    Precision::from_factor(entries.map(|entry| lower[entry] as f32)).unwrap()
+}
+
 /// Kernels of the chord or of the inner product: those that a rotation leaves alone.
 fn turns_with_the_object(content: &Content) -> bool {
-    content.model.metric == Metric::Chord
-        && content.model.kernel != Kernel::Periodic
-        && content.parts.iter().all(|part| part.precision.is_none())
+    content.model.metric == Metric::Chord && content.model.kernel != Kernel::Periodic
 }
 
 proptest! {

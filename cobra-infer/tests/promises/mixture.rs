@@ -8,6 +8,7 @@ use crate::content::{Content, Part, content};
 use crate::scene::{COMPONENTS, settings};
 use crate::tolerance::{DENSITY, DISTANCE, MAXIMUM_LIKELIHOOD, QUADRATURE, TINY_NOISE};
 use cobra_infer::mixture::Match;
+use cobra_infer::template::Precision;
 use cobra_infer::{
     Assignment, Likelihood, Mixture, ScoreError, Settings, Sigma, Template, Threshold, bound,
 };
@@ -208,6 +209,63 @@ fn a_point_on_its_reference_point_has_no_match_but_another_component_may_speak()
     let near = |offset: f32| [on[0], on[1], on[2] + offset];
     assert_eq!(ask(Assignment::Nearest, near(1e-5)), None);
     assert!(ask(Assignment::Nearest, near(1e-4)).is_some());
+}
+
+#[test]
+fn a_reach_that_is_no_number_never_hides_a_finite_one() {
+    let mut content = Content::small();
+    let [first, second] = &mut content.parts[..] else {
+        panic!("two parts");
+    };
+    first.centre = [100.0, 0.0, 0.0];
+    // ∞ − ∞ for the point below.
+    first.precision = Precision::from_factor([3e38, 3e38, 1.0, 0.0, 0.0, 1.0]);
+    second.precision = Precision::from_factor([0.1, 0.0, 0.1, 0.0, 0.0, 0.1]);
+    let bytes = content.encode();
+    let template = Template::from_bytes(&bytes).unwrap();
+    for assignment in [Assignment::Nearest, Assignment::Soft] {
+        let point = [80.0, 40.0, 0.0];
+        let found = evaluate(
+            &template,
+            assignment,
+            Likelihood::Peak,
+            TEMPLATE_SIGMA,
+            point,
+        );
+        assert_eq!(
+            found.map(|found| found.component),
+            Some(1),
+            "{assignment:?}"
+        );
+    }
+}
+
+#[test]
+fn every_residual_of_at_most_delta_reaches_the_worst_threshold_to_the_last_bit() {
+    let mut content = Content::sphere(40.0, 1.0);
+    for step in 1..400 {
+        content.parts[0].sigma_hat = 0.0137 * step as f32;
+        let bytes = content.encode();
+        let template = Template::from_bytes(&bytes).unwrap();
+        for (delta, out) in [(1e-5, 0.0), (0.5, 0.5), (2.0, 2.0), (3.0, -3.0)] {
+            for likelihood in [Likelihood::Peak, Likelihood::Density] {
+                let settings = Settings {
+                    likelihood,
+                    threshold: Threshold::Worst,
+                    ..Settings::with_delta(delta)
+                };
+                let mixture = Mixture::<COMPONENTS>::new(&template, &settings).unwrap();
+                let found = mixture
+                    .evaluate(&Point3::new(40.0 + out, 0.0, 0.0))
+                    .unwrap();
+                assert_eq!(found.residual(), out);
+                assert!(
+                    found.likelihood >= found.threshold,
+                    "{settings:?} {found:?}"
+                );
+            }
+        }
+    }
 }
 
 #[test]

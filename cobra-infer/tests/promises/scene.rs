@@ -4,7 +4,8 @@ use crate::content::Content;
 use cobra_infer::mixture::Match;
 use cobra_infer::score::PointScore;
 use cobra_infer::{
-    Assignment, Camera, Correspondence, Likelihood, Pose, Report, Scorer, Settings, Sigma, Template,
+    Assignment, Camera, Correspondence, Likelihood, Pose, Report, Scorer, Settings, Sigma,
+    Template, Threshold,
 };
 use nalgebra::{Point2, Point3};
 
@@ -18,6 +19,8 @@ pub(crate) const EVERY_RULE: [(Assignment, Likelihood); 6] = [
     (Assignment::Soft, Likelihood::Peak),
     (Assignment::Soft, Likelihood::Density),
 ];
+
+pub(crate) const THRESHOLDS: [Threshold; 3] = [Threshold::Paper, Threshold::Mean, Threshold::Worst];
 
 pub(crate) const IDENTITY: [f32; 9] = [1., 0., 0., 0., 1., 0., 0., 0., 1.];
 
@@ -88,6 +91,7 @@ pub(crate) fn has_nan(points: &[PointScore], report: &Report) -> bool {
             found.distance,
             found.predicted,
             found.likelihood,
+            found.threshold,
             found.residual(),
         ]
         .iter()

@@ -2,10 +2,12 @@
 //! a NaN.
 
 use crate::content::{Content, content};
-use crate::scene::{COMPONENTS, EVERY_RULE, at, correspondence, has_nan, pose, settings, stream};
+use crate::scene::{
+    COMPONENTS, EVERY_RULE, THRESHOLDS, at, correspondence, has_nan, pose, settings, stream,
+};
 use crate::sections::{Raw, join, reseal, set_record_word, set_term_word, split};
-use cobra_infer::template::peek_len;
-use cobra_infer::{Sigma, Template};
+use cobra_infer::template::{Precision, peek_len};
+use cobra_infer::{Kernel, Metric, Model, Settings, Sigma, Template};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -53,9 +55,14 @@ fn load_and_use(bytes: &[u8]) -> bool {
             if template.component_count() > COMPONENTS {
                 continue;
             }
-            let settings = settings(assignment, likelihood, sigma);
-            let (points, report) = stream(&template, &pose(0.0), &settings, &correspondences);
-            assert!(!has_nan(&points, &report), "{points:?}\n{report:?}");
+            for threshold in THRESHOLDS {
+                let settings = Settings {
+                    threshold,
+                    ..settings(assignment, likelihood, sigma)
+                };
+                let (points, report) = stream(&template, &pose(0.0), &settings, &correspondences);
+                assert!(!has_nan(&points, &report), "{points:?}\n{report:?}");
+            }
         }
     }
     true
@@ -98,12 +105,13 @@ proptest! {
     #[test]
     fn removed_or_inserted_bytes_with_the_right_checksum_never_panic(
         content in content(),
-        section in 0_usize..4,
+        section in any::<Index>(),
         from in any::<Index>(),
         to in any::<Index>(),
         inserted in vec(any::<u8>(), 0..5),
     ) {
         let mut sections = split(&content.encode());
+        let section = section.index(sections.len());
         let body = &mut sections[section].body;
         let (from, to) = (from.index(body.len()), to.index(body.len()));
         body.splice(from.min(to)..from.max(to), inserted);
@@ -126,21 +134,47 @@ fn every_byte_at_its_extremes_with_the_right_checksum_never_panics() {
     assert!(loaded > 100, "the test must reach the scorer: {loaded}");
 }
 
+/// The small template with every kernel and metric, and precisions.
+fn every_model() -> impl Iterator<Item = Content> {
+    let models = Metric::ALL
+        .into_iter()
+        .flat_map(|metric| Kernel::ALL.map(|kernel| Model { metric, kernel }));
+    models.map(|model| {
+        let mut content = Content::small();
+        content.model = model;
+        for part in &mut content.parts {
+            let h = &mut part.hyperparameters;
+            h.length_scale = model.kernel.fixed_length_scale().unwrap_or(0.5);
+            h.parameter = model.kernel.fixed_parameter().unwrap_or(1.5);
+            part.precision = Precision::from_factor([0.5, 0.1, 0.25, -0.2, 0.0, 0.125]);
+        }
+        content
+    })
+}
+
 #[test]
 fn every_number_at_its_extremes_gives_no_nan() {
-    let bytes = Content::small().encode();
     let mut loaded = 0;
-    for value in SPECIAL {
-        for word in 0..7 {
-            let damaged = set_record_word(&bytes, 0, word, value.to_le_bytes());
-            loaded += usize::from(load_and_use(&damaged));
-        }
-        for word in 0..20 {
-            let damaged = set_term_word(&bytes, word, value);
-            loaded += usize::from(load_and_use(&damaged));
+    for content in every_model() {
+        let bytes = content.encode();
+        for value in SPECIAL {
+            for word in 0..7 {
+                let damaged = set_record_word(&bytes, 0, word, value.to_le_bytes());
+                loaded += usize::from(load_and_use(&damaged));
+            }
+            for word in 0..20 {
+                let damaged = set_term_word(&bytes, word, value);
+                loaded += usize::from(load_and_use(&damaged));
+            }
+            for word in 0..6 {
+                let mut sections = split(&bytes);
+                let body = &mut sections.last_mut().unwrap().body;
+                body[2 + 4 * word..][..4].copy_from_slice(&value.to_le_bytes());
+                loaded += usize::from(load_and_use(&join(&sections)));
+            }
         }
     }
-    assert!(loaded > 100, "the test must reach the scorer: {loaded}");
+    assert!(loaded > 1000, "the test must reach the scorer: {loaded}");
 }
 
 #[test]

@@ -7,6 +7,8 @@
 //! Q_k that expectation maximisation learned, or with the identity in the object's unit sphere,
 //! as the paper has it for k-means, which makes it the Euclidean distance.
 
+mod soft;
+
 use crate::bound::{self, Threshold};
 use crate::error::ScoreError;
 use crate::gp;
@@ -23,6 +25,17 @@ pub enum Likelihood {
     Peak,
     /// The Gaussian density exp(−e²/2σ²)/(√(2π)σ) of Eq. 9, in 1/length.
     Density,
+}
+
+impl Likelihood {
+    /// The likelihood whose peak form is `peak`. The threshold goes through it as well, so that
+    /// equal residuals are equal after rounding.
+    pub(crate) fn of_peak(self, peak: f32, inverse_sigma: f32) -> f32 {
+        match self {
+            Likelihood::Peak => peak,
+            Likelihood::Density => peak * inverse_sigma / SQRT_TWO_PI,
+        }
+    }
 }
 
 /// Which component speaks for a point.
@@ -162,7 +175,6 @@ pub struct Mixture<'t, const COMPONENTS: usize> {
     likelihood: Likelihood,
     assignment: Assignment,
     smallest_distance: f32,
-    inverse_squared_radius: f32,
     largest_threshold: f32,
     prepared: Vec<Prepared, COMPONENTS>,
 }
@@ -206,7 +218,6 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
             likelihood: settings.likelihood,
             assignment: settings.assignment,
             smallest_distance: tolerance::NO_DIRECTION * template.radius(),
-            inverse_squared_radius: 1.0 / template.radius() / template.radius(),
             largest_threshold,
             prepared,
         })
@@ -231,14 +242,8 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
     }
 
     fn evaluate_nearest(&self, point: &Point3<f32>) -> Option<Match> {
-        let mut nearest: Option<(f32, usize, Component<'t>)> = None;
-        for (index, component) in self.template.components().enumerate() {
-            let squared = squared_reach(&component, point);
-            if nearest.as_ref().is_none_or(|(best, ..)| squared < *best) {
-                nearest = Some((squared, index, component));
-            }
-        }
-        let (_, index, component) = nearest?;
+        let index = self.template.nearest([point.x, point.y, point.z])?;
+        let component = self.template.component(index)?;
         let prepared = self.prepared.get(index)?;
         let prediction = self.predict(&component, prepared, point)?;
         Some(self.matched(index, &prediction, prepared))
@@ -263,79 +268,11 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
         Some(self.matched(index, &prediction, self.prepared.get(index)?))
     }
 
-    /// Eqs. 6 to 8. The exponent of the nearest component is taken from all of them, which cancels
-    /// in the quotient and keeps it from being 0/0. Components whose weight rounds to 0 are not
-    /// asked.
-    fn evaluate_soft(&self, point: &Point3<f32>) -> Option<Match> {
-        let least = self
-            .template
-            .components()
-            .map(|component| self.exponent(&component, point))
-            .fold(
-                f32::INFINITY,
-                |least, next| if next < least { next } else { least },
-            );
-        if !least.is_finite() {
-            return None;
-        }
-        let (mut weights, mut likelihoods, mut thresholds) = (0.0, 0.0, 0.0);
-        let mut best: Option<(f32, usize, Prediction)> = None;
-        for (index, (component, prepared)) in
-            self.template.components().zip(&self.prepared).enumerate()
-        {
-            let excess = self.exponent(&component, point) - least;
-            let weight = math::exp(-excess);
-            if weight.is_nan() || weight <= 0.0 {
-                continue;
-            }
-            weights += weight;
-            thresholds += weight * prepared.threshold;
-            let Some(prediction) = self.predict(&component, prepared, point) else {
-                continue;
-            };
-            likelihoods += self.scaled(math::exp(-(excess + prediction.half_square)), prepared);
-            let cost = excess + self.cost(&prediction, prepared);
-            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-                best = Some((cost, index, prediction));
-            }
-        }
-        let (_, component, prediction) = best?;
-        let likelihood = likelihoods / weights;
-        Some(Match {
-            component,
-            distance: prediction.distance,
-            predicted: prediction.predicted,
-            likelihood: match self.likelihood {
-                // Two rounded sums may differ by an ulp where every likelihood is 1.
-                Likelihood::Peak if likelihood > 1.0 => 1.0,
-                _ => likelihood,
-            },
-            threshold: thresholds / weights,
-        })
-    }
-
-    /// (P − C_k)ᵀQ_k(P − C_k), a pure number.
-    fn exponent(&self, component: &Component<'t>, point: &Point3<f32>) -> f32 {
-        let squared = squared_reach(component, point);
-        match component.precision {
-            Some(_) => squared,
-            None => squared * self.inverse_squared_radius,
-        }
-    }
-
     /// e²/2σ², plus ln σ for the density: the less, the more probable.
     fn cost(&self, prediction: &Prediction, prepared: &Prepared) -> f32 {
         match self.likelihood {
             Likelihood::Peak => prediction.half_square,
             Likelihood::Density => prediction.half_square + prepared.log_sigma,
-        }
-    }
-
-    /// A peak likelihood as the likelihood that was asked for.
-    fn scaled(&self, peak: f32, prepared: &Prepared) -> f32 {
-        match self.likelihood {
-            Likelihood::Peak => peak,
-            Likelihood::Density => peak * prepared.inverse_sigma / SQRT_TWO_PI,
         }
     }
 
@@ -367,20 +304,11 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
             component,
             distance: prediction.distance,
             predicted: prediction.predicted,
-            likelihood: self.scaled(math::exp(-prediction.half_square), prepared),
+            likelihood: self
+                .likelihood
+                .of_peak(math::exp(-prediction.half_square), prepared.inverse_sigma),
             threshold: prepared.threshold,
         }
-    }
-}
-
-/// How far a point is from a reference point: (P − C)ᵀQ(P − C), or ‖P − C‖² where the template has
-/// no Q. All components of a template have one or none has.
-fn squared_reach(component: &Component<'_>, point: &Point3<f32>) -> f32 {
-    let [x, y, z] = component.centre;
-    let offset = [point.x - x, point.y - y, point.z - z];
-    match component.precision {
-        Some(precision) => precision.form(offset),
-        None => math::dot(offset, offset),
     }
 }
 

@@ -1,0 +1,55 @@
+//! How near a template's components are to a point.
+//!
+//! Owns (P − C_k)ᵀQ_k(P − C_k) over the records, of which only the reference point is read: the
+//! search for the nearest component is most of what a point costs besides its Gaussian process.
+
+use super::wire::{self, PrecisionRecord};
+use super::{Precision, Template};
+use crate::math;
+
+impl Template<'_> {
+    /// The component of the least (P − C_k)ᵀQ_k(P − C_k), the first of equals; without precisions,
+    /// of the least ‖P − C_k‖². `None` where none of these is a finite number.
+    pub(crate) fn nearest(&self, point: [f32; 3]) -> Option<usize> {
+        let records = self.records.iter();
+        match self.precisions {
+            None => least(records.map(|record| {
+                let offset = wire::offset(record, point);
+                math::dot(offset, offset)
+            })),
+            Some(factors) => least(records.zip(factors).map(|(record, factor)| {
+                Precision::from_validated(factor).form(wire::offset(record, point))
+            })),
+        }
+    }
+
+    /// The exponents of Eq. 8, (P − C_k)ᵀQ_k(P − C_k); without precisions ‖(P − C_k)/radius‖², each
+    /// coordinate multiplied by 1/radius first.
+    pub(crate) fn exponents(&self, point: [f32; 3]) -> impl Iterator<Item = f32> {
+        let inverse_radius = 1.0 / self.radius;
+        let mut factors = self.precisions.map(<[PrecisionRecord]>::iter);
+        self.records.iter().map(move |record| {
+            let offset = wire::offset(record, point);
+            match factors.as_mut().and_then(Iterator::next) {
+                Some(factor) => Precision::from_validated(factor).form(offset),
+                None => {
+                    let scaled = offset.map(|coordinate| coordinate * inverse_radius);
+                    math::dot(scaled, scaled)
+                }
+            }
+        })
+    }
+}
+
+/// The index of the least finite number, the first of equals.
+fn least(numbers: impl Iterator<Item = f32>) -> Option<usize> {
+    let mut best = None;
+    let mut least = f32::INFINITY;
+    for (index, number) in numbers.enumerate() {
+        if number < least {
+            least = number;
+            best = Some(index);
+        }
+    }
+    best
+}
