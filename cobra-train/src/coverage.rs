@@ -2,8 +2,8 @@
 //!
 //! Owns the comparison of the Gaussian process's own variance (Eq. 5) with the σ̂ that replaces it
 //! (Eq. 9). Residuals and the component that speaks for a point are the scorer's own. Does not own
-//! where the points come from: they must be neither those that the template was fitted to nor those
-//! that σ̂ was measured on.
+//! where the points come from: they should be neither those that the template was fitted to nor those
+//! that σ̂ was measured on, which a point cloud has no others than.
 
 use crate::evaluate::residuals;
 use crate::gp::{NotPositiveDefinite, Posterior};
@@ -155,7 +155,7 @@ impl Coverage {
             };
             Calibration {
                 mean_sigma: sum / count,
-                sigma_over_residual: sum / count / rms_residual,
+                sigma_over_residual: sum / count / rms_residual.max(f64::MIN_POSITIVE),
                 within: NOMINAL.map(within).to_vec(),
             }
         };

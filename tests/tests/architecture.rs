@@ -52,10 +52,31 @@ fn the_functions_of_the_equations_exist() {
         assert!(quoted(functions).next().is_some(), "{functions}");
         for path in quoted(functions) {
             let name = path.rsplit("::").next().unwrap();
-            let defined = ["fn ", "struct ", "enum ", "mod ", "    "]
-                .iter()
-                .any(|keyword| text.contains(&format!("{keyword}{name}")));
+            let defined = [
+                format!("pub fn {name}("),
+                format!("pub fn {name}<"),
+                format!("pub(super) fn {name}("),
+                format!("pub struct {name}"),
+                format!("pub enum {name} {{"),
+                format!("pub mod {name};"),
+                // A variant, at the start of its line.
+                format!("\n    {name},\n"),
+            ]
+            .iter()
+            .any(|definition| text.contains(definition));
             assert!(defined, "{path}");
+        }
+    }
+}
+
+#[test]
+fn the_files_that_the_page_names_exist() {
+    for line in PAGE.lines().filter(|line| line.starts_with('|')) {
+        for word in quoted(line) {
+            let is_path = word.contains(".rs") || word.ends_with('/');
+            if is_path && word.contains("/src/") && !word.contains('{') {
+                assert!(workspace().join(word).exists(), "{word}");
+            }
         }
     }
 }

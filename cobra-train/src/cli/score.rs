@@ -8,7 +8,7 @@ use super::template_file;
 use super::terminal::Terminal;
 use cobra_infer::{
     Assignment, Camera, Correspondence, Decision, Likelihood, Report, Settings, Sigma, Template,
-    Threshold, score,
+    Threshold, bound, score,
 };
 use cobra_train::input::{
     CameraFile, CorrespondenceOptions, Estimate, doubt_point_scale, doubt_pose_scale, read_camera,
@@ -20,8 +20,9 @@ use serde::Serialize;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-/// A threshold of Eq. 11 below this means δ > 3.2 σ, beyond what a Gaussian residual reaches.
-const LOW_THRESHOLD: f32 = 0.1;
+/// A tolerance of more than this many σ lies beyond what a Gaussian residual reaches: a threshold
+/// below what it gives is warned of.
+const LARGE_DELTA: f32 = 3.2;
 
 pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(), Failure> {
     let bytes = template_file::read(&arguments.template)?;
@@ -260,7 +261,7 @@ fn warn_of_scale(
     }
 }
 
-/// Eq. 11 falls with (σ/δ)²: a tolerance far above σ makes a threshold that any pose reaches.
+/// Thresholds fall as δ grows against σ, Eq. 11 with (σ/δ)²: in the end any pose reaches them.
 fn warn_of_low_thresholds(
     settings: &Settings,
     scored: &[(&Estimate, Report)],
@@ -271,7 +272,8 @@ fn warn_of_low_thresholds(
         .filter(|(_, report)| !matches!(report.decision, Decision::Undecided(_)))
         .map(|(_, report)| report.threshold)
         .fold(f32::INFINITY, f32::min);
-    if settings.likelihood == Likelihood::Peak && lowest < LOW_THRESHOLD {
+    let low = bound::contribution(Likelihood::Peak, settings.threshold, 1.0, LARGE_DELTA);
+    if settings.likelihood == Likelihood::Peak && lowest < low {
         terminal.warn(&format!(
             "the threshold falls to {lowest:.3}, because the tolerance is far above the residuals' \
              standard deviation: poses may be accepted that nothing supports; add the \

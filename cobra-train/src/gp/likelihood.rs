@@ -25,6 +25,9 @@ pub struct LikelihoodAndGradient {
 ///
 /// # Errors
 /// [`NotPositiveDefinite`] where the hyperparameters make K numerically singular.
+///
+/// # Panics
+/// Unless there are as many targets as directions.
 pub fn negative_log_marginal_likelihood(
     kernel: Kernel,
     hyperparameters: &Hyperparameters,
@@ -32,6 +35,7 @@ pub fn negative_log_marginal_likelihood(
     y: &[f64],
 ) -> Result<LikelihoodAndGradient, NotPositiveDefinite> {
     let n = y.len();
+    assert_eq!(n, points.len(), "a target a direction");
     let gram = gram(kernel, hyperparameters, points);
     let factor = Cholesky::new(gram.clone())?;
     let w = factor.solve(y);

@@ -16,7 +16,7 @@ pub use fit::{FitError, FitOptions, FittedGp, LARGEST_GP, PriorMean, Subset, exp
 pub use gram::{Coordinates, Hyperparameters, coordinates, covariance, covariances, gram};
 pub use likelihood::{LikelihoodAndGradient, negative_log_marginal_likelihood};
 pub use optimise::{
-    AdamOptions, Learned, NOISE_FLOOR, Optimiser, OptimiserError, PAPER_NOISE_FLOOR,
-    PlateauOptions, SearchBox, Start, StopReason, learn, search_box,
+    AdamOptions, LARGEST_NOISE_FLOOR, Learned, NOISE_FLOOR, Optimiser, OptimiserError,
+    PAPER_NOISE_FLOOR, PlateauOptions, SearchBox, Start, StopReason, learn, search_box,
 };
 pub use posterior::{Posterior, Prediction};

@@ -23,7 +23,7 @@ pub struct Posterior {
 /// What is known of the distance in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prediction {
-    /// m + kᵀK⁻¹(d − m) (Eq. 4), a length.
+    /// m + kᵀK⁻¹(d − m) (Eq. 5), a length.
     pub mean: f64,
     /// v·k(x, x) − kᵀK⁻¹k (Eq. 5) of the surface's distance itself, a squared length, at least 0.
     pub variance: f64,

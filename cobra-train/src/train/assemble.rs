@@ -19,17 +19,24 @@ pub(super) struct ScaledComponent {
 }
 
 impl ScaledComponent {
-    pub(super) fn new(cluster: &Cluster, fitted: &FittedGp, sphere: &BoundingSphere) -> Self {
+    /// `None` where the cluster's precision leaves the range of `f32` in the mesh's unit.
+    pub(super) fn new(
+        cluster: &Cluster,
+        fitted: &FittedGp,
+        sphere: &BoundingSphere,
+    ) -> Option<Self> {
         let h = &fitted.learned.hyperparameters;
-        Self {
+        let precision = match cluster.precision() {
+            Some(precision) => Some(scaled_precision(precision, sphere.radius)?),
+            None => None,
+        };
+        Some(Self {
             centre: sphere
                 .denormalise(&cluster.centre())
                 .cast::<f32>()
                 .coords
                 .into(),
-            precision: cluster
-                .precision()
-                .and_then(|precision| scaled_precision(precision, sphere.radius)),
+            precision,
             hyperparameters: Hyperparameters {
                 length_scale: h.length_scale as f32,
                 parameter: h.parameter as f32,
@@ -45,7 +52,7 @@ impl ScaledComponent {
                 .iter()
                 .map(|w| (sphere.radius * w) as f32)
                 .collect(),
-        }
+        })
     }
 }
 

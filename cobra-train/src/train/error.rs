@@ -63,6 +63,15 @@ pub enum TrainError {
         /// Why.
         source: FitError,
     },
+    /// A cluster's precision does not fit into a template.
+    #[error(
+        "component {component}: its precision leaves the range of 32-bit numbers; is the object's \
+         unit right?"
+    )]
+    Precision {
+        /// Which one.
+        component: usize,
+    },
     /// The template could not be written.
     #[error(transparent)]
     Encode(#[from] EncodeError),

@@ -90,8 +90,12 @@ pub fn train(
     let scaled: Vec<ScaledComponent> = clusters
         .iter()
         .zip(&fitted)
-        .map(|(cluster, fitted)| ScaledComponent::new(cluster, fitted, &sphere))
-        .collect();
+        .enumerate()
+        .map(|(component, (cluster, fitted))| {
+            ScaledComponent::new(cluster, fitted, &sphere)
+                .ok_or(TrainError::Precision { component })
+        })
+        .collect::<Result<_, _>>()?;
     let frame = Frame {
         options,
         sphere: &sphere,

@@ -30,6 +30,9 @@ use objective::Objective;
 /// large that the controller's `f32` sum loses more than a hundredth of σ̂.
 pub const NOISE_FLOOR: f64 = 1e-5;
 
+/// A noise floor above this leaves the search no room; the largest noise variance is e⁻².
+pub const LARGEST_NOISE_FLOOR: f64 = 0.1;
+
 /// The smallest noise variance of the paper's recipe: GPyTorch's own, in units of the unit sphere.
 pub const PAPER_NOISE_FLOOR: f64 = 1e-4;
 
@@ -141,8 +144,8 @@ struct Found {
 
 /// Minimises L(θ)/n over [`search_box`].
 ///
-/// `points` are the directions, `y` the targets, at least one; `noise_floor` the least noise
-/// variance (unit sphere).
+/// `points` are the directions, `y` the targets, as many and at least one; `noise_floor` the least
+/// noise variance, above 0 and at most [`LARGEST_NOISE_FLOOR`] (unit sphere).
 ///
 /// # Errors
 /// [`OptimiserError`].
@@ -153,6 +156,19 @@ pub fn learn(
     optimiser: &Optimiser,
     noise_floor: f64,
 ) -> Result<Learned, OptimiserError> {
+    if y.is_empty() || y.len() != points.len() {
+        return Err(OptimiserError::Refused(format!(
+            "{} targets for {} directions",
+            y.len(),
+            points.len()
+        )));
+    }
+    if !(noise_floor > 0.0 && noise_floor <= LARGEST_NOISE_FLOOR) {
+        return Err(OptimiserError::Refused(format!(
+            "the noise floor must lie above 0 and be at most {LARGEST_NOISE_FLOOR}, found \
+             {noise_floor}"
+        )));
+    }
     let search_box = search_box(kernel, noise_floor);
     let start = |from: Start| from.logarithms(kernel, &search_box, y);
     let objective = Objective {

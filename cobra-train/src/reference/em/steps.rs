@@ -8,8 +8,9 @@ use crate::reference::membership::nearest_to_each;
 use nalgebra::{Matrix3, Point3, Vector3};
 use rayon::prelude::*;
 
-/// A component that holds less than this many points' worth of responsibility starts again.
-const FEWEST_POINTS: f64 = 1.0;
+/// A component that holds less than this many points' worth of responsibility starts again. Below 1,
+/// so that of as many components as points, whose shares may add up to a little less, none does.
+const FEWEST_POINTS: f64 = 0.5;
 
 /// Points whose sums are taken together; the order of summation does not depend on the threads.
 const CHUNK: usize = 1024;
@@ -146,7 +147,8 @@ pub(super) fn maximise(points: &[Point3<f64>], expected: &Expected, floor: f64) 
             width += moments(sums).1 * sums.points;
             kept += sums.points;
         }
-        width /= kept;
+        // Where none is kept, the floor alone is the width.
+        width /= f64::max(kept, FEWEST_POINTS);
     }
     let fewest = points.len() as f64 / expected.sums.len() as f64;
     let weights: Vec<f64> = expected
