@@ -157,7 +157,7 @@ fn text(document: &Document) -> String {
          diameter    {:.3}\n\
          kernel      {}, {} metric\n\
          features    {} of cobra-infer, on the controller\n\
-         components  {}\n\
+         components  {}, {}\n\
          terms       {}\n\
          size        {} bytes: {} terms, {} component records, {} the rest\n\
          cost        kernel evaluations a point: at most {} (nearest), {} (max, soft)\n\n{}",
@@ -168,6 +168,11 @@ fn text(document: &Document) -> String {
         document.metric,
         document.features.join(" and "),
         document.components.len(),
+        if document.precisions {
+            "with precisions: near and far by each one's own Q"
+        } else {
+            "near and far by Euclidean distance"
+        },
         document.terms,
         bytes.total,
         bytes.terms,

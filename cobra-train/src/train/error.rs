@@ -15,7 +15,7 @@ pub enum TrainError {
     NoPoints,
     /// A point cloud was to be drawn on.
     #[error(
-        "sampling {}: draws points on faces, and a point cloud has none; its own points are split \
+        "{} draws points on faces, and a point cloud has none; its own points are split \
          into training and test points with the default, cameras",
         sampling.name()
     )]
