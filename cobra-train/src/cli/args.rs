@@ -118,7 +118,7 @@ pub(crate) struct TrainArguments {
 
     /// Train each component on all points within (1 + SHARE) times its own points' largest distance
     /// from its reference point, as the authors do; none: on its own points
-    #[arg(long, value_name = "none|SHARE", default_value = "none", value_parser = overlap)]
+    #[arg(long, value_name = "none|SHARE", default_value = "none", value_parser = overlap, allow_hyphen_values = true)]
     pub(crate) overlap: Overlap,
 
     /// Covariance function: rational quadratic, radial basis function, Matern of smoothness 1/2,
