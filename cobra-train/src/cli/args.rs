@@ -178,6 +178,8 @@ pub(crate) struct TrainArguments {
 
 #[derive(Debug, Args)]
 #[command(
+    override_usage = "cobra score <FILE.cobra> --camera <FILE> --poses <POSES.json> \
+                      --correspondences <DIR|FILE>... [OPTIONS]",
     after_help = "Poses: {\"ID\": [{\"cam_R_m2c\": [9], \"cam_t_m2c\": [3]}], ...}, R row-major, \
                   object to camera.\nCorrespondences: CSV with columns x,y (pixels, pixel centres \
                   at integers), X,Y,Z (object frame), and inlier and conf where asked for; a \

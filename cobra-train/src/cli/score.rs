@@ -80,7 +80,7 @@ pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(),
         scored.push((*estimate, report));
     }
 
-    warn_of_low_thresholds(&settings, &scored, terminal);
+    warn_of_low_thresholds(&template, &settings, &scored, terminal);
     let json = JsonTarget(arguments.json.as_ref());
     json.write(&document(&template, &settings, &scored), terminal)?;
     if !json.replaces_the_table() {
@@ -181,7 +181,7 @@ fn pair<'e>(
             .filter(|estimate| same_image(&estimate.image, &image))
             .collect();
         if let ([file_is_single], [only], true) = (inputs, estimates, poses.is_empty()) {
-            terminal.detail(&format!(
+            terminal.warn(&format!(
                 "{} is taken for pose {}, the only one",
                 file_is_single.display(),
                 only.id
@@ -263,6 +263,7 @@ fn warn_of_scale(
 
 /// Thresholds fall as δ grows against σ, Eq. 11 with (σ/δ)²: in the end any pose reaches them.
 fn warn_of_low_thresholds(
+    template: &Template<'_>,
     settings: &Settings,
     scored: &[(&Estimate, Report)],
     terminal: &Terminal,
@@ -272,8 +273,18 @@ fn warn_of_low_thresholds(
         .filter(|(_, report)| !matches!(report.decision, Decision::Undecided(_)))
         .map(|(_, report)| report.threshold)
         .fold(f32::INFINITY, f32::min);
-    let low = bound::contribution(Likelihood::Peak, settings.threshold, 1.0, LARGE_DELTA);
-    if settings.likelihood == Likelihood::Peak && lowest < low {
+    // A density is in 1/length: the largest sigma makes the least that is not warned of.
+    let sigma = match (settings.likelihood, settings.sigma) {
+        (Likelihood::Peak, _) => 1.0,
+        (Likelihood::Density, Sigma::Fixed(sigma)) => sigma,
+        (Likelihood::Density, Sigma::Template { noise }) => template
+            .components()
+            .map(|component| component.sigma_hat.hypot(noise))
+            .fold(0.0, f32::max),
+    };
+    let large = LARGE_DELTA * sigma;
+    let low = bound::contribution(settings.likelihood, settings.threshold, sigma, large);
+    if lowest < low {
         terminal.warn(&format!(
             "the threshold falls to {lowest:.3}, because the tolerance is far above the residuals' \
              standard deviation: poses may be accepted that nothing supports; add the \

@@ -21,11 +21,19 @@ fn a_sound_scene_gives_no_warning() {
 #[test]
 fn a_threshold_that_any_pose_reaches_is_warned_of() {
     let scene = Scene::trained();
-    let outcome = succeed(scene.score(&["--sigma-hat", "1", "--delta", "4"]));
-    let [warning] = warnings(&outcome)[..] else {
-        panic!("{outcome:?}");
-    };
-    assert!(warning.contains("--noise"), "{warning}");
+    for likelihood in ["peak", "density"] {
+        for rule in ["paper", "mean", "worst"] {
+            let rules = ["--likelihood", likelihood, "--threshold", rule];
+            let with = |delta| [&["--sigma-hat", "2", "--delta", delta][..], &rules].concat();
+            let outcome = succeed(scene.score(&with("8")));
+            let [warning] = warnings(&outcome)[..] else {
+                panic!("{outcome:?}");
+            };
+            assert!(warning.contains("--noise"), "{warning}");
+            let outcome = succeed(scene.score(&with("5")));
+            assert!(warnings(&outcome).is_empty(), "{outcome:?}");
+        }
+    }
 }
 
 #[test]

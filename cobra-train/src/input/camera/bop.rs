@@ -29,7 +29,9 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<CameraFile, ReadCameraErr
             *number = to_f32(value).ok_or_else(|| form(Misfit::new(key, "a number", value)))?;
         }
         let [fx, fy, cx, cy] = k;
-        let camera = Camera::new(fx, fy, cx, cy).map_err(|source| no_camera(path, None, source))?;
+        let camera = Camera::new(fx, fy, cx, cy)
+            .and_then(|camera| undistorted(camera, keys))
+            .map_err(|source| no_camera(path, None, source))?;
         return Ok(CameraFile::One(ImageCamera {
             camera,
             depth_scale: depth_scale(keys, "").map_err(form)?,
@@ -42,6 +44,7 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<CameraFile, ReadCameraErr
             .ok_or_else(|| form(Misfit::new(image, "an object with cam_K", entry)))?;
         let k = numbers::<9>(image, entry, "cam_K", "9 numbers").map_err(form)?;
         let camera = Camera::from_matrix(k)
+            .and_then(|camera| undistorted(camera, fields))
             .map_err(|source| no_camera(path, Some(format!("{image}.cam_K")), source))?;
         let depth_scale = depth_scale(fields, &format!("{image}.")).map_err(form)?;
         let camera = ImageCamera {
@@ -52,6 +55,36 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<CameraFile, ReadCameraErr
         Ok((image.clone(), camera))
     });
     Ok(CameraFile::PerImage(cameras.collect::<Result<_, _>>()?))
+}
+
+/// What other tools call the coefficients of lens distortion; BOP has none.
+const DISTORTION: [&str; 13] = [
+    "dist_coeffs",
+    "dist",
+    "distortion",
+    "distortion_coefficients",
+    "distortion_parameters",
+    "D",
+    "k1",
+    "k2",
+    "k3",
+    "k4",
+    "p1",
+    "p2",
+    "cam_dist",
+];
+
+/// The camera, unless a key holds a coefficient that is not 0.
+fn undistorted(camera: Camera, keys: &Map<String, Value>) -> Result<Camera, CameraError> {
+    let coefficients: Vec<f32> = DISTORTION
+        .iter()
+        .filter_map(|key| keys.get(*key))
+        .flat_map(|value| match value {
+            Value::Array(values) => values.iter().filter_map(to_f32).collect(),
+            value => to_f32(value).into_iter().collect::<Vec<_>>(),
+        })
+        .collect();
+    camera.with_distortion(&coefficients)
 }
 
 fn no_camera(path: &Path, place: Option<String>, source: CameraError) -> ReadCameraError {
@@ -104,6 +137,24 @@ mod tests {
     const PER_IMAGE: &str = r#"{"3": {"cam_K": [572.4114, 0.5, 325.2611, 0.0, 573.57043, 242.04899,
         0.0, 0.0, 1.0], "depth_scale": 1.0, "cam_t_w2c": [1, 2, 3]},
         "8": {"cam_K": [500, 0, 320, 0, 500, 240, 0, 0, 1]}}"#;
+
+    #[test]
+    fn distortion_is_refused_under_any_of_its_names() {
+        for (key, refused) in [
+            (r#""dist_coeffs": [0, 0.1, 0, 0]"#, true),
+            (r#""k1": -0.2"#, true),
+            (r#""D": [0, 0, 0, 0, 0], "k1": 0"#, false),
+        ] {
+            let one = ONE.replace(r#""lens": "none""#, key);
+            let each = PER_IMAGE.replace(r#""depth_scale": 1.0"#, key);
+            for (name, text) in [("camera.json", one), ("scene_camera.json", each)] {
+                match read_as(name, &text) {
+                    Ok(_) => assert!(!refused, "{text}"),
+                    Err(error) => assert!(refused && error.to_string().contains("undistort")),
+                }
+            }
+        }
+    }
 
     #[test]
     fn camera_json_is_one_camera_with_size_and_depth_scale() {
