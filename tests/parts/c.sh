@@ -1,0 +1,5 @@
+# The C interface.
+
+part_c() {
+    skip "c: not built yet"
+}
