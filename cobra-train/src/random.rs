@@ -6,7 +6,6 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-/// What a stream of random numbers is for; the order is part of the streams.
 /// What a stream of random numbers is for. The order is part of the streams: new ones come last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {

@@ -4,8 +4,8 @@
 //! files record what was released, and training again would hide that something changed.
 //! `tests/tests/golden.rs` says when one may be replaced.
 
+use cobra_agreement::golden::{case, decision_name, report_bits, score};
 use cobra_infer::{Exponent, Kernel, Metric, Model, Smoothness, Template, UnitDirection};
-use cobra_tests::golden::{case, decision_name, report_bits, score};
 use cobra_train::demo::mechanical_part;
 use cobra_train::progress::Silent;
 use cobra_train::train::{ReferencePoints, TrainOptions, train};
@@ -195,7 +195,7 @@ fn trained(golden: &Golden) -> Result<Vec<u8>, Box<dyn Error>> {
 
 fn recorded(bytes: &[u8], rules: &[Rules]) -> Result<String, Box<dyn Error>> {
     let template = Template::from_bytes(bytes)?;
-    let mut text = String::from("# The format is that of `cobra_tests::golden`.\n");
+    let mut text = String::from("# The format is that of `cobra_agreement::golden`.\n");
     line(&mut text, "camera", &CAMERA)?;
     for pose in &POSES {
         line(&mut text, "pose", pose)?;

@@ -1,6 +1,4 @@
-//! What the cross-crate tests share: the table of tolerances, where the real data lies, and the
-//! replay of recorded scores.
+//! What the cross-crate tests share: the table of tolerances, and where the real data lies.
 
 pub mod data;
-pub mod golden;
 pub mod tolerance;

@@ -6,43 +6,8 @@
 //! under the new version's name to `make-golden`, and say so in the changelog. Never train these
 //! templates again, and never record their scores again, to make this pass.
 
+use cobra_agreement::golden::{GOLDEN, Mismatch, replay};
 use cobra_infer::{Kernel, Metric, Template};
-use cobra_tests::golden::{Mismatch, replay};
-
-macro_rules! golden {
-    ($template:literal, $vectors:literal, $cases:literal) => {
-        (
-            include_bytes!(concat!("../golden/v1-", $template, ".cobra")).as_slice(),
-            include_str!(concat!("../golden/v1-", $vectors, ".txt")),
-            $cases,
-        )
-    };
-}
-
-/// Template, vectors, and how many cases these hold.
-const GOLDEN: [(&[u8], &str, usize); 17] = [
-    golden!("exponent-one", "exponent-one", 32),
-    golden!("exponent-half", "exponent-half", 32),
-    golden!("exponent-free", "exponent-free", 32),
-    golden!("exponent-one", "exponent-one-soft", 28),
-    golden!("exponent-half", "exponent-half-soft", 28),
-    golden!("exponent-free", "exponent-free-soft", 28),
-    golden!("radial-basis", "radial-basis", 24),
-    golden!("matern-half", "matern-half", 24),
-    golden!("matern-three-halves", "matern-three-halves", 24),
-    golden!("matern-five-halves", "matern-five-halves", 24),
-    golden!("linear", "linear", 24),
-    golden!("polynomial", "polynomial", 24),
-    golden!("periodic", "periodic", 24),
-    golden!("angles", "angles", 24),
-    golden!(
-        "angles-matern-three-halves",
-        "angles-matern-three-halves",
-        24
-    ),
-    golden!("angles-periodic", "angles-periodic", 24),
-    golden!("precisions", "precisions", 24),
-];
 
 #[test]
 fn recorded_templates_score_the_recorded_bits() {

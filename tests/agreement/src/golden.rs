@@ -1,8 +1,5 @@
 //! Replays recorded scores against a recorded template, bit by bit.
 //!
-//! Needs `core` and `cobra-infer` alone and stores nothing, so that a test on bare metal can take
-//! this file and `include_bytes!`/`include_str!` what lies in `tests/golden`.
-//!
 //! A file of vectors is text. Numbers are the eight hexadecimal digits of an `f32`'s bits unless
 //! said otherwise; a line that starts with `#` says nothing. In order:
 //!
@@ -15,15 +12,52 @@
 //! | `likelihoods` | one a correspondence of the case before |
 //! | `report` | confidence, threshold, sum of weights, share of inliers, in decimal the points and those behind the camera, and the decision |
 
+use cobra_infer::nalgebra::{Point2, Point3};
 use cobra_infer::{
     Assignment, Camera, Correspondence, Decision, Doubt, Likelihood, Pose, Rejection, Report,
     Scorer, Settings, Sigma, Template, Threshold,
 };
 use core::str::SplitAsciiWhitespace;
-use nalgebra::{Point2, Point3};
 
 /// The most components that a golden template has.
 pub const COMPONENTS: usize = 4;
+
+#[cfg(feature = "golden")]
+macro_rules! golden {
+    ($template:literal, $vectors:literal, $cases:literal) => {
+        (
+            include_bytes!(concat!("../../golden/v1-", $template, ".cobra")).as_slice(),
+            include_str!(concat!("../../golden/v1-", $vectors, ".txt")),
+            $cases,
+        )
+    };
+}
+
+/// The golden templates: template, vectors, and how many cases these hold.
+#[cfg(feature = "golden")]
+pub const GOLDEN: [(&[u8], &str, usize); 17] = [
+    golden!("exponent-one", "exponent-one", 32),
+    golden!("exponent-half", "exponent-half", 32),
+    golden!("exponent-free", "exponent-free", 32),
+    golden!("exponent-one", "exponent-one-soft", 28),
+    golden!("exponent-half", "exponent-half-soft", 28),
+    golden!("exponent-free", "exponent-free-soft", 28),
+    golden!("radial-basis", "radial-basis", 24),
+    golden!("matern-half", "matern-half", 24),
+    golden!("matern-three-halves", "matern-three-halves", 24),
+    golden!("matern-five-halves", "matern-five-halves", 24),
+    golden!("linear", "linear", 24),
+    golden!("polynomial", "polynomial", 24),
+    golden!("periodic", "periodic", 24),
+    golden!("angles", "angles", 24),
+    golden!(
+        "angles-matern-three-halves",
+        "angles-matern-three-halves",
+        24
+    ),
+    golden!("angles-periodic", "angles-periodic", 24),
+    golden!("precisions", "precisions", 24),
+];
 
 /// Where a replay went wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,0 +1,11 @@
+//! Scores recorded vectors and compares every bit: on the host, under emulators, on bare metal.
+//!
+//! Owns what a target must reproduce: the [`vectors`] that every board scores, and with the feature
+//! `golden` the replay of the [`golden`] templates of every kernel. Needs `core` and `cobra-infer`
+//! alone and stores nothing.
+#![no_std]
+
+pub mod golden;
+pub mod vectors;
+
+pub use vectors::{Outcome, SETS, Set};

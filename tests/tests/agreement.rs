@@ -1,0 +1,112 @@
+//! The agreement vectors score the recorded bits on this host, and would show it if not.
+
+use cobra_agreement::vectors::{CASES, Points, Unreadable, compare};
+use cobra_agreement::{Outcome, SETS, Set};
+use cobra_infer::{Camera, Correspondence, Template, tolerance};
+
+#[test]
+fn the_host_scores_the_recorded_bits_of_every_set() {
+    for set in SETS {
+        let outcome = compare(&set).unwrap();
+        assert_eq!(outcome.mismatched_bits, 0, "{}", set.name);
+        assert_eq!(outcome.points, 2000, "{}", set.name);
+        assert!(outcome.words > 2000 * CASES.len() as u32 * 9 / 10);
+    }
+}
+
+#[test]
+fn a_flipped_bit_anywhere_in_the_record_is_counted_once() {
+    let set = SETS[2];
+    for place in (0..set.expected.len()).step_by(997) {
+        let mut expected = set.expected.to_vec();
+        expected[place] ^= 1 << (place % 8);
+        let set = Set {
+            expected: expected.leak(),
+            ..set
+        };
+        assert_eq!(compare(&set).unwrap().mismatched_bits, 1);
+    }
+}
+
+#[test]
+fn a_record_of_another_length_is_no_agreement() {
+    let set = SETS[2];
+    let longer = [set.expected, &[0; 4]].concat().leak();
+    for expected in [&set.expected[4..], &longer[..], &[]] {
+        let Outcome {
+            mismatched_bits, ..
+        } = compare(&Set { expected, ..set }).unwrap();
+        assert!(mismatched_bits >= 32);
+    }
+}
+
+#[test]
+fn a_set_that_does_not_read_is_an_error() {
+    let set = SETS[2];
+    for points in [&set.points[1..], &set.points[..set.points.len() - 4], &[]] {
+        let outcome = compare(&Set { points, ..set });
+        assert_eq!(outcome, Err(Unreadable::Points));
+    }
+    let template = &set.template[1..];
+    assert!(matches!(
+        compare(&Set { template, ..set }),
+        Err(Unreadable::Template(_))
+    ));
+}
+
+/// Every number of every correspondence, by its place in the row.
+fn rows(points: &Points<'_>) -> Vec<[f32; 6]> {
+    let row = |c: Correspondence| {
+        let [u, v]: [f32; 2] = c.pixel.into();
+        let [x, y, z]: [f32; 3] = c.point.into();
+        [u, v, x, y, z, c.weight]
+    };
+    points.correspondences().map(row).collect()
+}
+
+#[test]
+fn every_set_holds_what_is_awkward() {
+    for set in SETS {
+        let template = Template::from_bytes(set.template).unwrap();
+        let points = Points::read(set.points).unwrap();
+        let rows = rows(&points);
+        for place in 0..6 {
+            let column = || rows.iter().map(|row| row[place]);
+            assert!(column().any(f32::is_nan), "{} {place}", set.name);
+            assert!(
+                column().any(|x| x == f32::INFINITY) && column().any(|x| x == f32::NEG_INFINITY)
+            );
+            assert!(column().any(f32::is_subnormal));
+        }
+        assert!(rows.iter().any(|row| row[5] == 0.0));
+        assert!(rows.iter().any(|row| row[5] < 0.0));
+        let camera: Camera = points.camera().unwrap();
+        let pose = points.pose(0, false).unwrap();
+        let back: Vec<_> = points
+            .correspondences()
+            .filter(Correspondence::is_finite)
+            .map(|c| camera.back_project(&pose, &c.pixel, &c.point))
+            .collect();
+        assert!(back.iter().any(|b| b.depth < 0.0), "behind the camera");
+        let radius = template.radius();
+        let from = |centre: [f32; 3]| {
+            let offsets = back
+                .iter()
+                .map(move |b| b.point.coords - nalgebra::Vector3::from(centre));
+            offsets.filter(|offset| offset.norm().is_finite())
+        };
+        let centres = || template.components().map(|component| component.centre);
+        let on_a_reference_point = centres()
+            .flat_map(from)
+            .any(|offset| offset.norm() < tolerance::NO_DIRECTION * radius);
+        assert!(on_a_reference_point, "{}", set.name);
+        let on_a_pole = centres().flat_map(from).any(|offset| {
+            offset.norm() > 0.1 * radius && offset.xy().norm() < 1e-4 * offset.norm()
+        });
+        assert!(on_a_pole, "{}", set.name);
+        let far_away = centres()
+            .flat_map(from)
+            .any(|offset| offset.norm() > 1e6 * radius);
+        assert!(far_away, "{}", set.name);
+    }
+}
