@@ -1,8 +1,9 @@
 //! The few numerical functions the crate needs, each with the same bits on every target.
 //!
-//! Owns all knowledge of `libm` and the sums whose order matters. Addition, subtraction,
-//! multiplication, division and the square root are correctly rounded by IEEE 754, so they agree
-//! everywhere; the transcendental functions agree because they are always `libm`'s own code, never
+//! Owns all knowledge of `libm` and of square roots, and the sums whose order matters. Addition,
+//! subtraction, multiplication, division and the square root are correctly rounded by IEEE 754, so
+//! they agree everywhere, whoever computes them ([`cobra_square_root`] takes the shortest way that a
+//! target has); the transcendental functions agree because they are always `libm`'s own code, never
 //! the platform's.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -54,7 +55,7 @@ impl Real for f32 {
     const PI: Self = core::f32::consts::PI;
     #[inline]
     fn square_root(self) -> Self {
-        libm::sqrtf(self)
+        cobra_square_root::square_root_f32(self)
     }
     #[inline]
     fn power(self, power: Self) -> Self {
@@ -83,7 +84,7 @@ impl Real for f64 {
     const PI: Self = core::f64::consts::PI;
     #[inline]
     fn square_root(self) -> Self {
-        libm::sqrt(self)
+        cobra_square_root::square_root_f64(self)
     }
     #[inline]
     fn power(self, power: Self) -> Self {
