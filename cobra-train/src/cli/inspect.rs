@@ -6,7 +6,7 @@ use super::outputs;
 use super::report::{JsonTarget, table};
 use super::template_file;
 use super::terminal::Terminal;
-use cobra_infer::Template;
+use cobra_infer::{Assignment, Template};
 use cobra_infer::template::{RECORD_LENGTH, VERSION};
 use serde::Serialize;
 
@@ -101,8 +101,8 @@ impl Document {
                 other: total - terms - records,
             },
             kernel_evaluations_per_point: Evaluations {
-                nearest_most: cost.nearest,
-                maximum: cost.maximum,
+                nearest_most: cost.of(Assignment::Nearest),
+                maximum: cost.of(Assignment::Maximum),
             },
             components: template
                 .components()
