@@ -86,6 +86,7 @@ impl<'a> Terms<'a> {
 
 /// The hyperparameters of one component.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Hyperparameters {
     /// l > 0, in units of the metric's coordinates; 1 where the kernel has none.
     pub length_scale: f32,

@@ -9,6 +9,7 @@ use crate::mixture::Assignment;
 /// Each bound is reached by some point, and exceeded by none: not by one that is NaN, infinite, on
 /// a reference point or far away.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Cost {
     /// With nearest assignment: the terms of the largest component.
     pub nearest: usize,

@@ -25,6 +25,7 @@ pub use wire::{
 
 use crate::gp::{self, Hyperparameters, Terms, UnitDirection, Word};
 use crate::kernel::{Kernel, Metric, Model};
+use crate::trace;
 use crate::unit::Unit;
 use heapless::String;
 use wire::{PrecisionRecord, Record};
@@ -76,7 +77,12 @@ impl<'a> Template<'a> {
     /// # Errors
     /// [`TemplateError`] says what is wrong and where.
     pub fn from_bytes(bytes: &'a [u8]) -> Result<Self, TemplateError> {
-        validate::template(bytes)
+        let result = validate::template(bytes);
+        match &result {
+            Ok(template) => trace::template_loaded(template),
+            Err(error) => trace::template_refused(error),
+        }
+        result
     }
 
     /// The object's name.

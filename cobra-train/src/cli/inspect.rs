@@ -6,8 +6,8 @@ use super::outputs;
 use super::report::{JsonTarget, table};
 use super::template_file;
 use super::terminal::Terminal;
-use cobra_infer::{Assignment, Template};
 use cobra_infer::template::{RECORD_LENGTH, VERSION};
+use cobra_infer::{Assignment, Template};
 use serde::Serialize;
 
 pub(super) fn run(arguments: &InspectArguments, terminal: &Terminal) -> Result<(), Failure> {
