@@ -15,6 +15,7 @@ use nalgebra::{Unit, Vector3};
 
 #[cfg(test)]
 pub(crate) mod evaluations;
+mod sum;
 
 /// How many accumulators the sum is interleaved over.
 pub const LANES: usize = 8;
@@ -25,61 +26,58 @@ pub type UnitDirection = Unit<Vector3<f32>>;
 /// A little-endian `f32` as it lies in a template.
 pub type Word = [u8; 4];
 
-/// The directions and weights of one component: four borrowed arrays of the same length, each a
-/// run of little-endian `f32`, at any alignment.
+/// The directions and weights of one component: four borrowed arrays of the same length behind each
+/// other, each a run of little-endian `f32`, at any alignment.
 ///
 /// A direction lies in the coordinates of the template's metric: a unit vector, or (φ, θ, 0).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Terms<'a> {
-    x: &'a [Word],
-    y: &'a [Word],
-    z: &'a [Word],
-    weights: &'a [Word],
+    /// A multiple of four.
+    words: &'a [Word],
 }
 
 impl<'a> Terms<'a> {
-    pub(crate) const EMPTY: Self = Self {
-        x: &[],
-        y: &[],
-        z: &[],
-        weights: &[],
-    };
+    pub(crate) const EMPTY: Self = Self { words: &[] };
 
-    /// Splits `words` into its four equal parts: all x, all y, all z, all weights. `None` when the
-    /// length is not a multiple of four.
+    /// Of all x, all y, all z, all weights. `None` when the length is not a multiple of four.
     #[must_use]
     pub fn from_words(words: &'a [Word]) -> Option<Self> {
-        let count = words.len() / 4;
-        let (x, rest) = words.split_at_checked(count)?;
-        let (y, rest) = rest.split_at_checked(count)?;
-        let (z, weights) = rest.split_at_checked(count)?;
-        (weights.len() == count).then_some(Self { x, y, z, weights })
+        words.len().is_multiple_of(4).then_some(Self { words })
     }
 
     /// How many terms there are.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.x.len()
+        self.words.len() / 4
     }
 
     /// Whether there is no term.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.x.is_empty()
+        self.words.is_empty()
     }
 
+    /// All x, all y, all z, all weights.
+    #[inline]
     fn arrays(&self) -> [&'a [Word]; 4] {
-        [self.x, self.y, self.z, self.weights]
+        let count = self.len();
+        let split = |words: &'a [Word]| words.split_at_checked(count).unwrap_or((words, &[]));
+        let (x, rest) = split(self.words);
+        let (y, rest) = split(rest);
+        let (z, rest) = split(rest);
+        // Not what is left, so that the compiler sees that all four are of one length.
+        let (weights, _) = split(rest);
+        [x, y, z, weights]
     }
 
     /// The terms one by one: direction, in the metric's coordinates, and weight.
     pub fn iter(&self) -> impl Iterator<Item = ([f32; 3], f32)> + use<'a> {
         let read = |word: &Word| f32::from_le_bytes(*word);
-        self.x
-            .iter()
-            .zip(self.y)
-            .zip(self.z)
-            .zip(self.weights)
+        let [x, y, z, weights] = self.arrays();
+        x.iter()
+            .zip(y)
+            .zip(z)
+            .zip(weights)
             .map(move |(((x, y), z), w)| ([read(x), read(y), read(z)], read(w)))
     }
 }
@@ -132,61 +130,8 @@ impl Visitor<f32> for WeightedSum<'_> {
         let Self { terms, query } = self;
         #[cfg(test)]
         let kernel = evaluations::Counted(kernel);
-        let mut lanes = sum_chunks(kernel, terms, query);
-        let [xs, ys, zs, ws] = terms.arrays().map(|words| words.as_chunks::<LANES>().1);
-        for ((((lane, x), y), z), w) in lanes.iter_mut().zip(xs).zip(ys).zip(zs).zip(ws) {
-            let [x, y, z, w] = [x, y, z, w].map(|word| f32::from_le_bytes(*word));
-            *lane += w * kernel.between(query, [x, y, z]);
-        }
-        let [a0, a1, a2, a3, a4, a5, a6, a7] = lanes;
-        ((a0 + a1) + (a2 + a3)) + ((a4 + a5) + (a6 + a7))
+        sum::weighted_sum(&kernel, terms, query)
     }
-}
-
-/// The accumulators after the terms that fill whole rounds of them.
-///
-/// A controller goes through the terms once for each half of the accumulators: with all eight, the
-/// compiler loads more terms ahead than there are registers, and a term costs two instructions more.
-fn sum_chunks<K: Covariance<f32>>(kernel: K, terms: &Terms<'_>, query: [f32; 3]) -> [f32; LANES] {
-    let [a0, a1, a2, a3] = sum_four::<K, false>(&kernel, terms, query);
-    let [a4, a5, a6, a7] = sum_four::<K, true>(&kernel, terms, query);
-    [a0, a1, a2, a3, a4, a5, a6, a7]
-}
-
-/// Four accumulators from `FIRST` on, after the whole rounds.
-///
-/// Out of line on purpose: next to the sum over the accumulators, which adds them in pairs, the
-/// compiler makes vectors of two lanes where four fit, and the loop takes three times as long.
-/// Written out on purpose: a loop over the four is unrolled at `opt-level = 3` alone.
-#[inline(never)]
-fn sum_four<K: Covariance<f32>, const BACK: bool>(
-    kernel: &K,
-    terms: &Terms<'_>,
-    query: [f32; 3],
-) -> [f32; 4] {
-    let term = |lane: f32, [x, y, z, w]: [Word; 4]| {
-        let [x, y, z, w] = [x, y, z, w].map(f32::from_le_bytes);
-        lane + w * kernel.between(query, [x, y, z])
-    };
-    let [mut a, mut b, mut c, mut d] = [0.0; 4];
-    let [xs, ys, zs, ws] = terms.arrays().map(|words| words.as_chunks::<LANES>().0);
-    for (((x, y), z), w) in xs.iter().zip(ys).zip(zs).zip(ws) {
-        let [x, y, z, w] = [x, y, z, w].map(|round| {
-            let [w0, w1, w2, w3, w4, w5, w6, w7] = *round;
-            if BACK {
-                [w4, w5, w6, w7]
-            } else {
-                [w0, w1, w2, w3]
-            }
-        });
-        let ([x0, x1, x2, x3], [y0, y1, y2, y3]) = (x, y);
-        let ([z0, z1, z2, z3], [w0, w1, w2, w3]) = (z, w);
-        a = term(a, [x0, y0, z0, w0]);
-        b = term(b, [x1, y1, z1, w1]);
-        c = term(c, [x2, y2, z2, w2]);
-        d = term(d, [x3, y3, z3, w3]);
-    }
-    [a, b, c, d]
 }
 
 /// The direction from `origin` to `point` and the distance between them.

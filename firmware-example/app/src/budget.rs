@@ -8,6 +8,7 @@ use crate::stack;
 use cobra_agreement::vectors::Points;
 use cobra_infer::{Correspondence, Scorer, Settings, Template};
 use core::fmt::{self, Write};
+use core::hint::black_box;
 
 macro_rules! measured {
     ($($name:literal),*) => {
@@ -38,7 +39,7 @@ const POINTS: usize = 64;
 /// # Errors
 /// Those of `out`.
 pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
-    let Some(points) = Points::read(cobra_agreement::SETS[0].points) else {
+    let Some(points) = Points::read(black_box(cobra_agreement::SETS[0].points)) else {
         return writeln!(out, "the stream does not read");
     };
     let (Some(camera), Some(pose)) = (points.camera(), points.pose(0, false)) else {
@@ -46,7 +47,7 @@ pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
     };
     let stream = || points.correspondences().filter(is_ordinary).take(POINTS);
     for (name, bytes) in TEMPLATES {
-        let Ok(template) = Template::from_bytes(bytes) else {
+        let Ok(template) = Template::from_bytes(black_box(bytes)) else {
             return writeln!(out, "{name} does not load");
         };
         let settings = Settings::for_template(&template, 2.0);

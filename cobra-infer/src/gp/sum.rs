@@ -1,0 +1,69 @@
+//! Σᵢ wᵢ k(query, uᵢ), in the order that the format prescribes.
+//!
+//! The order is [`crate::gp`]'s; what is owned here is how the compilers are led to do it fast. A
+//! host makes vectors of four lanes of it. A controller keeps all of four terms in registers: with
+//! eight at a time it loads more words ahead than it has registers for, and a term costs two
+//! instructions more. Hence each half of the accumulators goes over the terms by itself, and the
+//! four are written out: a loop over them is unrolled at `opt-level = 3` alone.
+
+use super::{LANES, Terms, Word};
+use crate::kernel::Covariance;
+
+/// The sum over all terms.
+pub(super) fn weighted_sum<K: Covariance<f32>>(
+    kernel: &K,
+    terms: &Terms<'_>,
+    query: [f32; 3],
+) -> f32 {
+    let mut lanes = whole_rounds(kernel, terms, query);
+    let [xs, ys, zs, ws] = terms.arrays().map(|words| words.as_chunks::<LANES>().1);
+    for ((((lane, x), y), z), w) in lanes.iter_mut().zip(xs).zip(ys).zip(zs).zip(ws) {
+        *lane += term(kernel, query, [x, y, z, w]);
+    }
+    let [a0, a1, a2, a3, a4, a5, a6, a7] = lanes;
+    ((a0 + a1) + (a2 + a3)) + ((a4 + a5) + (a6 + a7))
+}
+
+/// The accumulators after the terms that fill whole rounds of them.
+///
+/// On hosts out of line on purpose: next to the sum over the accumulators, which adds them in pairs,
+/// the compiler makes vectors of two lanes where four fit, and the loop takes three times as long.
+#[cfg_attr(not(target_os = "none"), inline(never))]
+fn whole_rounds<K: Covariance<f32>>(
+    kernel: &K,
+    terms: &Terms<'_>,
+    query: [f32; 3],
+) -> [f32; LANES] {
+    let rounds = terms.arrays().map(|words| words.as_chunks::<LANES>().0);
+    let [a0, a1, a2, a3] = four(kernel, rounds, query, |[a, b, c, d, ..]| [a, b, c, d]);
+    let [a4, a5, a6, a7] = four(kernel, rounds, query, |[.., a, b, c, d]| [a, b, c, d]);
+    [a0, a1, a2, a3, a4, a5, a6, a7]
+}
+
+/// Four accumulators: of those words that `pick` takes from a round.
+#[inline(always)]
+fn four<K: Covariance<f32>>(
+    kernel: &K,
+    [xs, ys, zs, ws]: [&[[Word; LANES]]; 4],
+    query: [f32; 3],
+    pick: impl Fn(&[Word; LANES]) -> [&Word; 4],
+) -> [f32; 4] {
+    let [mut a, mut b, mut c, mut d] = [0.0; 4];
+    for (((x, y), z), w) in xs.iter().zip(ys).zip(zs).zip(ws) {
+        let [x0, x1, x2, x3] = pick(x);
+        let [y0, y1, y2, y3] = pick(y);
+        let [z0, z1, z2, z3] = pick(z);
+        let [w0, w1, w2, w3] = pick(w);
+        a += term(kernel, query, [x0, y0, z0, w0]);
+        b += term(kernel, query, [x1, y1, z1, w1]);
+        c += term(kernel, query, [x2, y2, z2, w2]);
+        d += term(kernel, query, [x3, y3, z3, w3]);
+    }
+    [a, b, c, d]
+}
+
+#[inline(always)]
+fn term<K: Covariance<f32>>(kernel: &K, query: [f32; 3], [x, y, z, w]: [&Word; 4]) -> f32 {
+    let read = |word: &Word| f32::from_le_bytes(*word);
+    read(w) * kernel.between(query, [read(x), read(y), read(z)])
+}
