@@ -47,8 +47,11 @@ impl Correspondence {
     /// Whether every number in it is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.pixel.iter().all(|c| c.is_finite())
-            && self.point.iter().all(|c| c.is_finite())
+        self.pixel.x.is_finite()
+            && self.pixel.y.is_finite()
+            && self.point.x.is_finite()
+            && self.point.y.is_finite()
+            && self.point.z.is_finite()
             && self.weight.is_finite()
     }
 }

@@ -10,7 +10,7 @@
 //! vector code on the host and scalar code on a controller both compute.
 
 use crate::kernel::{Covariance, Model, Visitor};
-use crate::math;
+use crate::math::{self, Real};
 use nalgebra::{Unit, Vector3};
 
 #[cfg(test)]
@@ -143,10 +143,17 @@ pub fn direction_and_distance(
     origin: [f32; 3],
     smallest: f32,
 ) -> Option<(UnitDirection, f32)> {
-    use crate::math::Real;
     let [px, py, pz] = point;
     let [ox, oy, oz] = origin;
-    let (x, y, z) = (px - ox, py - oy, pz - oz);
+    direction_and_length([px - ox, py - oy, pz - oz], smallest)
+}
+
+/// The direction and the length of a vector, on the terms of [`direction_and_distance`].
+#[inline]
+pub(crate) fn direction_and_length(
+    [x, y, z]: [f32; 3],
+    smallest: f32,
+) -> Option<(UnitDirection, f32)> {
     let distance = math::dot([x, y, z], [x, y, z]).square_root();
     if !(distance > smallest && distance.is_finite()) {
         return None;

@@ -9,15 +9,25 @@
 use super::{LANES, Terms, Word};
 use crate::kernel::Covariance;
 
+/// One array in whole rounds of the accumulators.
+type Rounds<'a> = &'a [[Word; LANES]];
+
 /// The sum over all terms.
+#[inline]
 pub(super) fn weighted_sum<K: Covariance<f32>>(
     kernel: &K,
     terms: &Terms<'_>,
     query: [f32; 3],
 ) -> f32 {
-    let mut lanes = whole_rounds(kernel, terms, query);
-    let [xs, ys, zs, ws] = terms.arrays().map(|words| words.as_chunks::<LANES>().1);
-    for ((((lane, x), y), z), w) in lanes.iter_mut().zip(xs).zip(ys).zip(zs).zip(ws) {
+    // One by one: a `map` over the four is a loop at `opt-level = "s"`.
+    let [xs, ys, zs, ws] = terms.arrays();
+    let (xs, x_rest) = xs.as_chunks();
+    let (ys, y_rest) = ys.as_chunks();
+    let (zs, z_rest) = zs.as_chunks();
+    let (ws, w_rest) = ws.as_chunks();
+    let mut lanes = whole_rounds(kernel, [xs, ys, zs, ws], query);
+    let rest = x_rest.iter().zip(y_rest).zip(z_rest).zip(w_rest);
+    for (lane, (((x, y), z), w)) in lanes.iter_mut().zip(rest) {
         *lane += term(kernel, query, [x, y, z, w]);
     }
     let [a0, a1, a2, a3, a4, a5, a6, a7] = lanes;
@@ -29,12 +39,12 @@ pub(super) fn weighted_sum<K: Covariance<f32>>(
 /// On hosts out of line on purpose: next to the sum over the accumulators, which adds them in pairs,
 /// the compiler makes vectors of two lanes where four fit, and the loop takes three times as long.
 #[cfg_attr(not(target_os = "none"), inline(never))]
+#[cfg_attr(target_os = "none", inline)]
 fn whole_rounds<K: Covariance<f32>>(
     kernel: &K,
-    terms: &Terms<'_>,
+    rounds: [Rounds<'_>; 4],
     query: [f32; 3],
 ) -> [f32; LANES] {
-    let rounds = terms.arrays().map(|words| words.as_chunks::<LANES>().0);
     let [a0, a1, a2, a3] = four(kernel, rounds, query, |[a, b, c, d, ..]| [a, b, c, d]);
     let [a4, a5, a6, a7] = four(kernel, rounds, query, |[.., a, b, c, d]| [a, b, c, d]);
     [a0, a1, a2, a3, a4, a5, a6, a7]
@@ -44,7 +54,7 @@ fn whole_rounds<K: Covariance<f32>>(
 #[inline(always)]
 fn four<K: Covariance<f32>>(
     kernel: &K,
-    [xs, ys, zs, ws]: [&[[Word; LANES]]; 4],
+    [xs, ys, zs, ws]: [Rounds<'_>; 4],
     query: [f32; 3],
     pick: impl Fn(&[Word; LANES]) -> [&Word; 4],
 ) -> [f32; 4] {

@@ -13,7 +13,7 @@ use crate::bound::{self, Threshold};
 use crate::error::ScoreError;
 use crate::gp;
 use crate::math::{self, Real, SQRT_TWO_PI};
-use crate::template::{Component, Template};
+use crate::template::{Stored, Template};
 use crate::tolerance;
 use heapless::Vec;
 use nalgebra::Point3;
@@ -193,10 +193,10 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
         settings.check()?;
         let mut prepared = Vec::new();
         let mut largest_threshold = 0.0;
-        for component in template.components() {
+        for component in template.stored() {
             let sigma = match settings.sigma {
                 Sigma::Fixed(sigma) => sigma,
-                Sigma::Template { noise } => combined(component.sigma_hat, noise),
+                Sigma::Template { noise } => combined(component.sigma_hat(), noise),
             };
             let threshold = bound::contribution(
                 settings.likelihood,
@@ -248,9 +248,9 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
 
     fn evaluate_nearest(&self, point: &Point3<f32>) -> Option<Match> {
         let index = self.template.nearest([point.x, point.y, point.z])?;
-        let component = self.template.component(index)?;
+        let component = self.template.stored_at(index)?;
         let prepared = self.prepared.get(index)?;
-        let prediction = self.predict(&component, prepared, point)?;
+        let prediction = self.predict(component, prepared, point)?;
         Some(self.matched(index, &prediction, prepared))
     }
 
@@ -258,10 +258,9 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
     /// exponential a point is enough.
     fn evaluate_maximum(&self, point: &Point3<f32>) -> Option<Match> {
         let mut best: Option<(f32, usize, Prediction)> = None;
-        for (index, (component, prepared)) in
-            self.template.components().zip(&self.prepared).enumerate()
+        for (index, (component, prepared)) in self.template.stored().zip(&self.prepared).enumerate()
         {
-            let Some(prediction) = self.predict(&component, prepared, point) else {
+            let Some(prediction) = self.predict(component, prepared, point) else {
                 continue;
             };
             let cost = self.cost(&prediction, prepared);
@@ -283,15 +282,12 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
 
     fn predict(
         &self,
-        component: &Component<'t>,
+        component: Stored<'t>,
         prepared: &Prepared,
         point: &Point3<f32>,
     ) -> Option<Prediction> {
-        let (direction, distance) = gp::direction_and_distance(
-            [point.x, point.y, point.z],
-            component.centre,
-            self.smallest_distance,
-        )?;
+        let offset = component.offset([point.x, point.y, point.z]);
+        let (direction, distance) = gp::direction_and_length(offset, self.smallest_distance)?;
         let predicted = component.posterior_mean(self.template.model(), &direction);
         if !predicted.is_finite() {
             return None;

@@ -27,7 +27,7 @@ impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
         }
         let (mut weights, mut likelihoods, mut thresholds) = (0.0, 0.0, 0.0);
         let mut best: Option<(f32, usize, Prediction)> = None;
-        let components = self.template.components().zip(&self.prepared);
+        let components = self.template.stored().zip(&self.prepared);
         for (index, ((component, prepared), exponent)) in
             components.zip(self.template.exponents(at)).enumerate()
         {
@@ -38,7 +38,7 @@ impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
             }
             weights += weight;
             thresholds += weight * prepared.threshold;
-            let Some(prediction) = self.predict(&component, prepared, point) else {
+            let Some(prediction) = self.predict(component, prepared, point) else {
                 continue;
             };
             let peak = math::exp(-(excess + prediction.half_square));

@@ -11,6 +11,7 @@ mod encode_error;
 mod error;
 mod near;
 mod precision;
+mod stored;
 mod validate;
 mod wire;
 
@@ -28,6 +29,7 @@ use crate::kernel::{Kernel, Metric, Model};
 use crate::trace;
 use crate::unit::Unit;
 use heapless::String;
+pub(crate) use stored::Stored;
 use wire::{PrecisionRecord, Record};
 
 /// A validated template over borrowed bytes.
@@ -157,7 +159,7 @@ impl<'a> Template<'a> {
         let mut precisions = self.precisions.map(<[PrecisionRecord]>::iter);
         self.records.iter().map(move |record| {
             let precision = precisions.as_mut().and_then(Iterator::next);
-            wire::component(record, precision, words)
+            Stored::new(record, words).component(precision.map(Precision::from_validated))
         })
     }
 
@@ -165,8 +167,8 @@ impl<'a> Template<'a> {
     #[must_use]
     pub fn component(&self, index: usize) -> Option<Component<'a>> {
         let precision = self.precisions.and_then(|factors| factors.get(index));
-        let record = self.records.get(index)?;
-        Some(wire::component(record, precision, self.words))
+        let stored = self.stored_at(index)?;
+        Some(stored.component(precision.map(Precision::from_validated)))
     }
 }
 

@@ -1,8 +1,7 @@
 //! The bytes: header, section headers, records, and the postcard structures of the sections.
 
 use super::error::{Section, TemplateError};
-use super::{Component, Precision};
-use crate::gp::{Hyperparameters, Terms, Word};
+use crate::gp::Word;
 use crate::unit::Unit;
 use crc::{CRC_32_ISO_HDLC, Crc};
 use heapless::String;
@@ -224,34 +223,16 @@ pub(super) fn term_words<'a>(record: &Record, words: &'a [Word]) -> Option<&'a [
     words.get(start..start.checked_add(length)?)
 }
 
-/// P − C_k.
-pub(super) fn offset(record: &Record, [px, py, pz]: [f32; 3]) -> [f32; 3] {
+/// C_k.
+#[inline]
+pub(super) fn centre(record: &Record) -> [f32; 3] {
     let [x, y, z, ..] = *record;
-    [
-        px - f32::from_le_bytes(x),
-        py - f32::from_le_bytes(y),
-        pz - f32::from_le_bytes(z),
-    ]
+    [x, y, z].map(f32::from_le_bytes)
 }
 
-/// The component of a validated record; a record that was not validated has no terms.
-pub(super) fn component<'a>(
-    record: &Record,
-    precision: Option<&PrecisionRecord>,
-    words: &'a [Word],
-) -> Component<'a> {
-    let [x, y, z, sigma_hat, length_scale, parameter, prior_mean, ..] =
-        record.map(f32::from_le_bytes);
-    let own = term_words(record, words).unwrap_or(&[]);
-    Component {
-        centre: [x, y, z],
-        sigma_hat,
-        precision: precision.map(Precision::from_validated),
-        hyperparameters: Hyperparameters {
-            length_scale,
-            parameter,
-            prior_mean,
-        },
-        terms: Terms::from_words(own).unwrap_or(Terms::EMPTY),
-    }
+/// P − C_k.
+#[inline]
+pub(super) fn offset(record: &Record, [px, py, pz]: [f32; 3]) -> [f32; 3] {
+    let [x, y, z] = centre(record);
+    [px - x, py - y, pz - z]
 }

@@ -1,0 +1,87 @@
+//! A component where it lies in the file.
+//!
+//! Owns what scoring reads of a record, field by field and when it is needed: a [`Component`] holds
+//! all of them, and putting one together for each point costs more than the search for it.
+
+use super::wire::{self, Record};
+use super::{Component, Template};
+use crate::gp::{self, Hyperparameters, Terms, UnitDirection, Word};
+use crate::kernel::Model;
+
+/// A record, and the words that it names a range of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stored<'a> {
+    record: &'a Record,
+    words: &'a [Word],
+}
+
+impl<'a> Template<'a> {
+    /// The components as they lie in the file.
+    pub(crate) fn stored(&self) -> impl Iterator<Item = Stored<'a>> + use<'a> {
+        let words = self.words;
+        self.records
+            .iter()
+            .map(move |record| Stored::new(record, words))
+    }
+
+    /// Component `index` as it lies in the file.
+    #[inline]
+    pub(crate) fn stored_at(&self, index: usize) -> Option<Stored<'a>> {
+        Some(Stored::new(self.records.get(index)?, self.words))
+    }
+}
+
+impl<'a> Stored<'a> {
+    #[inline]
+    pub(super) fn new(record: &'a Record, words: &'a [Word]) -> Self {
+        Self { record, words }
+    }
+
+    /// P − C_k.
+    #[inline]
+    pub(crate) fn offset(&self, point: [f32; 3]) -> [f32; 3] {
+        wire::offset(self.record, point)
+    }
+
+    /// σ̂_k.
+    pub(crate) fn sigma_hat(&self) -> f32 {
+        let [_, _, _, sigma_hat, ..] = *self.record;
+        f32::from_le_bytes(sigma_hat)
+    }
+
+    /// Of a record that was not validated, none.
+    #[inline]
+    fn terms(&self) -> Terms<'a> {
+        let own = wire::term_words(self.record, self.words).unwrap_or(&[]);
+        Terms::from_words(own).unwrap_or(Terms::EMPTY)
+    }
+
+    #[inline]
+    fn hyperparameters(&self) -> Hyperparameters {
+        let [_, _, _, _, length_scale, parameter, prior_mean, ..] = *self.record;
+        let [length_scale, parameter, prior_mean] =
+            [length_scale, parameter, prior_mean].map(f32::from_le_bytes);
+        Hyperparameters {
+            length_scale,
+            parameter,
+            prior_mean,
+        }
+    }
+
+    /// [`Component::posterior_mean`].
+    #[inline]
+    pub(crate) fn posterior_mean(&self, model: Model, u: &UnitDirection) -> f32 {
+        gp::posterior_mean(model, &self.hyperparameters(), &self.terms(), u)
+    }
+
+    /// All of it, with the precision that belongs to it.
+    pub(super) fn component(&self, precision: Option<super::Precision>) -> Component<'a> {
+        Component {
+            centre: wire::centre(self.record),
+            sigma_hat: self.sigma_hat(),
+            precision,
+            hyperparameters: self.hyperparameters(),
+            terms: self.terms(),
+        }
+    }
+}
