@@ -13,6 +13,9 @@ use crate::kernel::{Covariance, Model, Visitor};
 use crate::math;
 use nalgebra::{Unit, Vector3};
 
+#[cfg(test)]
+pub(crate) mod evaluations;
+
 /// How many accumulators the sum is interleaved over.
 pub const LANES: usize = 8;
 
@@ -83,6 +86,7 @@ impl<'a> Terms<'a> {
 
 /// The hyperparameters of one component.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Hyperparameters {
     /// l > 0, in units of the metric's coordinates; 1 where the kernel has none.
     pub length_scale: f32,
@@ -126,6 +130,8 @@ impl Visitor<f32> for WeightedSum<'_> {
 
     fn visit(self, kernel: impl Covariance<f32>) -> f32 {
         let Self { terms, query } = self;
+        #[cfg(test)]
+        let kernel = evaluations::Counted(kernel);
         let mut lanes = sum_chunks(kernel, terms, query);
         let [xs, ys, zs, ws] = terms.arrays().map(|words| words.as_chunks::<LANES>().1);
         for ((((lane, x), y), z), w) in lanes.iter_mut().zip(xs).zip(ys).zip(zs).zip(ws) {
