@@ -27,6 +27,7 @@ use crate::mixture::Likelihood;
 
 /// What the threshold promises of a pose within the tolerance δ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Threshold {
     /// Eq. 11: a lower bound of the average confidence of poses whose residuals spread evenly in
     /// ±δ.

@@ -13,6 +13,7 @@ use nalgebra::{Point2, Point3, Vector3};
 
 /// Intrinsics of a pinhole camera: (x, y) ↦ (fx·x + s·y + cx, fy·y + cy), in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Camera {
     fx: f32,
     fy: f32,

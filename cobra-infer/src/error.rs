@@ -8,6 +8,7 @@ use core::fmt;
 
 /// Why numbers are not a pinhole camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum CameraError {
     /// An entry of K is NaN or infinite.
     NotFinite {
@@ -71,6 +72,7 @@ impl fmt::Display for CameraError {
 
 /// Why numbers are not a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum PoseError {
     /// An entry of R or t is NaN or infinite.
     NotFinite,
@@ -109,6 +111,7 @@ impl fmt::Display for PoseError {
 
 /// Why a scorer could not start.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ScoreError {
     /// The template has more components than the caller made room for.
     TooManyComponents {

@@ -13,6 +13,9 @@ use crate::kernel::{Covariance, Model, Visitor};
 use crate::math;
 use nalgebra::{Unit, Vector3};
 
+#[cfg(test)]
+pub(crate) mod evaluations;
+
 /// How many accumulators the sum is interleaved over.
 pub const LANES: usize = 8;
 
@@ -83,6 +86,7 @@ impl<'a> Terms<'a> {
 
 /// The hyperparameters of one component.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Hyperparameters {
     /// l > 0, in units of the metric's coordinates; 1 where the kernel has none.
     pub length_scale: f32,
@@ -126,6 +130,8 @@ impl Visitor<f32> for WeightedSum<'_> {
 
     fn visit(self, kernel: impl Covariance<f32>) -> f32 {
         let Self { terms, query } = self;
+        #[cfg(test)]
+        let kernel = evaluations::Counted(kernel);
         let mut lanes = sum_chunks(kernel, terms, query);
         let [xs, ys, zs, ws] = terms.arrays().map(|words| words.as_chunks::<LANES>().1);
         for ((((lane, x), y), z), w) in lanes.iter_mut().zip(xs).zip(ys).zip(zs).zip(ws) {
@@ -139,19 +145,48 @@ impl Visitor<f32> for WeightedSum<'_> {
 
 /// The accumulators after the terms that fill whole rounds of them.
 ///
+/// A controller goes through the terms once for each half of the accumulators: with all eight, the
+/// compiler loads more terms ahead than there are registers, and a term costs two instructions more.
+fn sum_chunks<K: Covariance<f32>>(kernel: K, terms: &Terms<'_>, query: [f32; 3]) -> [f32; LANES] {
+    let [a0, a1, a2, a3] = sum_four::<K, false>(&kernel, terms, query);
+    let [a4, a5, a6, a7] = sum_four::<K, true>(&kernel, terms, query);
+    [a0, a1, a2, a3, a4, a5, a6, a7]
+}
+
+/// Four accumulators from `FIRST` on, after the whole rounds.
+///
 /// Out of line on purpose: next to the sum over the accumulators, which adds them in pairs, the
 /// compiler makes vectors of two lanes where four fit, and the loop takes three times as long.
+/// Written out on purpose: a loop over the four is unrolled at `opt-level = 3` alone.
 #[inline(never)]
-fn sum_chunks<K: Covariance<f32>>(kernel: K, terms: &Terms<'_>, query: [f32; 3]) -> [f32; LANES] {
-    let mut lanes = [0.0; LANES];
+fn sum_four<K: Covariance<f32>, const BACK: bool>(
+    kernel: &K,
+    terms: &Terms<'_>,
+    query: [f32; 3],
+) -> [f32; 4] {
+    let term = |lane: f32, [x, y, z, w]: [Word; 4]| {
+        let [x, y, z, w] = [x, y, z, w].map(f32::from_le_bytes);
+        lane + w * kernel.between(query, [x, y, z])
+    };
+    let [mut a, mut b, mut c, mut d] = [0.0; 4];
     let [xs, ys, zs, ws] = terms.arrays().map(|words| words.as_chunks::<LANES>().0);
     for (((x, y), z), w) in xs.iter().zip(ys).zip(zs).zip(ws) {
-        let [x, y, z, w] = [x, y, z, w].map(|chunk| chunk.map(f32::from_le_bytes));
-        for ((((lane, x), y), z), w) in lanes.iter_mut().zip(x).zip(y).zip(z).zip(w) {
-            *lane += w * kernel.between(query, [x, y, z]);
-        }
+        let [x, y, z, w] = [x, y, z, w].map(|round| {
+            let [w0, w1, w2, w3, w4, w5, w6, w7] = *round;
+            if BACK {
+                [w4, w5, w6, w7]
+            } else {
+                [w0, w1, w2, w3]
+            }
+        });
+        let ([x0, x1, x2, x3], [y0, y1, y2, y3]) = (x, y);
+        let ([z0, z1, z2, z3], [w0, w1, w2, w3]) = (z, w);
+        a = term(a, [x0, y0, z0, w0]);
+        b = term(b, [x1, y1, z1, w1]);
+        c = term(c, [x2, y2, z2, w2]);
+        d = term(d, [x3, y3, z3, w3]);
     }
-    lanes
+    [a, b, c, d]
 }
 
 /// The direction from `origin` to `point` and the distance between them.

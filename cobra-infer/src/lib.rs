@@ -23,6 +23,9 @@
 //! | [`tolerance`] | every tolerance this crate applies, in one table |
 //! | [`math`] | the only place that knows `libm` |
 //!
+//! The features `log` and `defmt`, off by default, tell a logger of templates loaded and refused
+//! and of each pose's report; with `defmt`, errors, reports and settings are `defmt::Format` too.
+//!
 //! # Example
 //! ```
 //! use cobra_infer::{Camera, Correspondence, Decision, Pose, Scorer, Settings, Template};
@@ -76,6 +79,7 @@ pub mod pose;
 pub mod score;
 pub mod template;
 pub mod tolerance;
+mod trace;
 mod unit;
 
 pub use bound::Threshold;

@@ -28,11 +28,8 @@ impl Pose {
     /// [`PoseError::NotFinite`]; [`PoseError::NotARotation`] when RᵀR differs from I by more than
     /// [`tolerance::ROTATION`]; [`PoseError::Reflection`] when det R is not positive.
     pub fn from_row_major(r: [f32; 9], t: [f32; 3]) -> Result<Self, PoseError> {
-        let (rotation, translation) = checked(r, t, tolerance::ROTATION)?;
-        Ok(Self {
-            rotation: Rotation3::from_matrix_unchecked(rotation),
-            translation,
-        })
+        check(r, t, tolerance::ROTATION)?;
+        Ok(Self::unchecked(r, t))
     }
 
     /// Like [`Pose::from_row_major`], but replaces R by the nearest rotation.
@@ -45,15 +42,19 @@ impl Pose {
     /// As [`Pose::from_row_major`], with [`tolerance::ORTHONORMALISABLE`] in place of
     /// [`tolerance::ROTATION`].
     pub fn from_row_major_orthonormalised(r: [f32; 9], t: [f32; 3]) -> Result<Self, PoseError> {
-        let (mut rotation, translation) = checked(r, t, tolerance::ORTHONORMALISABLE)?;
+        check(r, t, tolerance::ORTHONORMALISABLE)?;
+        let mut r = r;
         for _ in 0..NEWTON_STEPS {
-            let gram = rotation.transpose() * rotation;
-            rotation = rotation * (Matrix3::identity() * 3.0 - gram) * 0.5;
+            r = newton_step(r);
         }
-        Ok(Self {
-            rotation: Rotation3::from_matrix_unchecked(rotation),
-            translation,
-        })
+        Ok(Self::unchecked(r, t))
+    }
+
+    fn unchecked([a, b, c, d, e, f, g, h, i]: [f32; 9], [x, y, z]: [f32; 3]) -> Self {
+        Self {
+            rotation: Rotation3::from_matrix_unchecked(Matrix3::new(a, b, c, d, e, f, g, h, i)),
+            translation: Vector3::new(x, y, z),
+        }
     }
 
     /// R.
@@ -95,33 +96,63 @@ impl Pose {
     }
 }
 
-fn checked(
-    r: [f32; 9],
-    t: [f32; 3],
-    tolerance: f32,
-) -> Result<(Matrix3<f32>, Vector3<f32>), PoseError> {
+/// The upper triangle of RᵀR, row by row: the products of R's columns.
+///
+/// Not by nalgebra's product, which states no order of summation.
+fn gram([a, b, c, d, e, f, g, h, i]: [f32; 9]) -> [f32; 6] {
+    let (x, y, z) = ([a, d, g], [b, e, h], [c, f, i]);
+    [
+        math::dot(x, x),
+        math::dot(x, y),
+        math::dot(x, z),
+        math::dot(y, y),
+        math::dot(y, z),
+        math::dot(z, z),
+    ]
+}
+
+/// R(3I − RᵀR)/2.
+fn newton_step(r: [f32; 9]) -> [f32; 9] {
+    let [xx, xy, xz, yy, yz, zz] = gram(r);
+    let columns = [
+        [1.5 - 0.5 * xx, -0.5 * xy, -0.5 * xz],
+        [-0.5 * xy, 1.5 - 0.5 * yy, -0.5 * yz],
+        [-0.5 * xz, -0.5 * yz, 1.5 - 0.5 * zz],
+    ];
+    let [a, b, c, d, e, f, g, h, i] = r;
+    let [[a, b, c], [d, e, f], [g, h, i]] =
+        [[a, b, c], [d, e, f], [g, h, i]].map(|row| columns.map(|column| math::dot(row, column)));
+    [a, b, c, d, e, f, g, h, i]
+}
+
+fn determinant([a, b, c, d, e, f, g, h, i]: [f32; 9]) -> f32 {
+    math::dot([a, b, c], [e * i - f * h, f * g - d * i, d * h - e * g])
+}
+
+fn check(r: [f32; 9], t: [f32; 3], tolerance: f32) -> Result<(), PoseError> {
     if !r.iter().chain(&t).all(|entry| entry.is_finite()) {
         return Err(PoseError::NotFinite);
     }
-    let rotation = Matrix3::from_row_slice(&r);
-    let translation = Vector3::from(t);
-    let gram = rotation.transpose() * rotation - Matrix3::identity();
-    let deviation = gram.iter().fold(0.0, |most, entry| {
-        let size = math::abs(*entry);
-        // Written so that a NaN from an overflow counts as the largest deviation.
-        if size <= most { most } else { size }
-    });
+    let identity = [1.0, 0.0, 0.0, 1.0, 0.0, 1.0];
+    let deviation = gram(r)
+        .iter()
+        .zip(identity)
+        .fold(0.0, |most, (entry, expected)| {
+            let size = math::abs(*entry - expected);
+            // Written so that a NaN from an overflow counts as the largest deviation.
+            if size <= most { most } else { size }
+        });
     if deviation.is_nan() || deviation > tolerance {
         return Err(PoseError::NotARotation {
             deviation,
             tolerance,
         });
     }
-    let determinant = rotation.determinant();
+    let determinant = determinant(r);
     if determinant.is_nan() || determinant <= 0.0 {
         return Err(PoseError::Reflection { determinant });
     }
-    Ok((rotation, translation))
+    Ok(())
 }
 
 #[cfg(test)]

@@ -9,9 +9,11 @@ use crate::math::{self, CompensatedSum};
 use crate::mixture::{Likelihood, Match, Mixture, Settings};
 use crate::pose::Pose;
 use crate::template::Template;
+use crate::trace;
 
 /// What to do with the pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Decision {
     /// The confidence reaches the threshold.
     Accept,
@@ -23,6 +25,7 @@ pub enum Decision {
 
 /// Why a pose is rejected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Rejection {
     /// The confidence lies below the threshold.
     BelowThreshold,
@@ -34,6 +37,7 @@ pub enum Rejection {
 
 /// Why there is no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Doubt {
     /// Fewer points of positive weight than [`Settings::minimum_points`].
     TooFewPoints,
@@ -81,6 +85,7 @@ impl Decision {
 
 /// The scorer's answer. None of its numbers is ever NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Report {
     /// The weighted mean likelihood of the valid points, weights normalised to sum 1 (Eq. 10 as
     /// printed with the density and the maximum); 0 where the weights vanish or overflow.
@@ -101,6 +106,7 @@ pub struct Report {
 
 /// What one correspondence came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PointScore {
     /// Its likelihood; 0 for a point behind the camera or with invalid input.
     pub likelihood: f32,
@@ -255,6 +261,7 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
             }
             None => Decision::Accept,
         };
+        trace::pose_scored(&report);
         report
     }
 }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// The unit of every length in a template: mesh files carry none, so the trainer is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Unit {
     /// 1 mm, the unit of BOP datasets.
     Millimetre,

@@ -3,8 +3,9 @@
 //! From a mesh to a template: [`surface`] reads it and draws points on it, [`mod@reference`] places
 //! reference points, [`gp`] fits a Gaussian process around each, [`mod@train`] puts them together and
 //! hands them to `cobra-infer`'s encoder. [`mod@evaluate`] measures the result with the scorer's own
-//! code. [`input`] reads cameras, poses and correspondences, [`pose`] simulates them, [`demo`] shows
-//! the whole. The command `cobra` is a thin layer over this library.
+//! code, [`export`] makes source text of it. [`input`] reads cameras, poses and correspondences,
+//! [`pose`] simulates them, [`demo`] shows the whole. The command `cobra` is a thin layer over this
+//! library.
 //!
 //! # Example
 //! ```no_run
@@ -25,6 +26,7 @@
 pub mod coverage;
 pub mod demo;
 pub mod evaluate;
+pub mod export;
 pub mod gp;
 pub mod input;
 pub mod output;

@@ -26,6 +26,8 @@ part_host() {
     need_lints
     check "cargo fmt" cargo fmt --all --check
     check "cargo clippy" cargo clippy --workspace --all-targets --locked -- -D warnings
+    check "cargo clippy with loggers" cargo clippy --package cobra-infer --all-targets --locked \
+        --features defmt,log -- -D warnings
     check "cargo doc" env RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
     run_tests
 }

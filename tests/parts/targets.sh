@@ -74,11 +74,30 @@ build_each_kernel_alone() {
     done
 }
 
+# `log` on this machine, where a test looks at the events. `defmt` needs a global logger to link, so that
+# it is built as a library, for what it is meant for.
+build_with_loggers() {
+    local target=thumbv7em-none-eabihf
+    cargo test --quiet --package cobra-infer --locked --features log --test log || return
+    if need_cross "$target"; then
+        cross "$target" core build --quiet --package cobra-infer --release --locked \
+            --features defmt,log
+    else
+        skip "cobra-infer with defmt: no \`core\` for $target"
+    fi
+}
+
 part_targets() {
     step "cobra-infer with each kernel alone"
     if build_each_kernel_alone; then
         pass
     else
         fail "cobra-infer with each kernel alone"
+    fi
+    step "cobra-infer with log and defmt"
+    if build_with_loggers; then
+        pass
+    else
+        fail "cobra-infer with log and defmt"
     fi
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// What is taken for the distance between two directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Metric {
     /// ‖u − u′‖ of the unit vectors, the alternative that the paper names where it introduces the
     /// rational quadratic: it has no seam and no pole, and needs no arctangent.

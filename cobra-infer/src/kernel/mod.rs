@@ -33,6 +33,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// The trainer folds the signal variance into the weights, so no kernel carries one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Kernel {
     /// The paper's rational quadratic, k = (1 + s/(2αl²))^(−α) with s the squared distance.
     RationalQuadratic(Exponent),
@@ -50,6 +51,7 @@ pub enum Kernel {
 
 /// The exponent α of the rational quadratic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Exponent {
     /// α = 1: needs only + − × ÷. The default.
     One,
@@ -61,6 +63,7 @@ pub enum Exponent {
 
 /// The smoothness ν of Matérn's kernels: a process is differentiable ⌈ν⌉ − 1 times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Smoothness {
     /// ν = ½: the exponential kernel.
     Half,
@@ -72,6 +75,7 @@ pub enum Smoothness {
 
 /// What the posterior mean of a template is made of besides numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Model {
     /// In which coordinates directions are compared.
     pub metric: Metric,

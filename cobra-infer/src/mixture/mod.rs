@@ -20,6 +20,7 @@ use nalgebra::Point3;
 
 /// Which likelihood a residual e under standard deviation σ has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Likelihood {
     /// exp(−e²/2σ²), between 0 and 1: what decisions use by default.
     Peak,
@@ -43,6 +44,7 @@ impl Likelihood {
 /// Nearest is the safer choice: a component that is asked outside its own patch extrapolates, so
 /// the maximum over all of them finds an excuse for more wrong points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Assignment {
     /// The one whose reference point is nearest: that of the largest weight in Eq. 8; the first of
     /// equals.
@@ -57,6 +59,7 @@ pub enum Assignment {
 
 /// The standard deviation σ of a component's residual.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Sigma {
     /// σ² = σ̂_k² + σ_m², with σ_m ≥ 0 the measurement's own standard deviation, in the template's
     /// unit.
@@ -70,6 +73,7 @@ pub enum Sigma {
 
 /// How points are scored.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Settings {
     /// Which likelihood.
     pub likelihood: Likelihood,
@@ -136,6 +140,7 @@ struct Prepared {
 
 /// What a template says of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Match {
     /// Which component speaks for it; of a soft assignment, the one with the largest share
     /// π_k q̂_k of the likelihood.

@@ -10,7 +10,7 @@ use super::wire::{
     PrecisionsSection, RECORD_LENGTH, REQUIRED, SECTION_HEADER_LENGTH, SectionHeader, TermEncoding,
     TermsSection,
 };
-use super::{Precision, Template};
+use super::{Precision, validate};
 use crate::gp::{Hyperparameters, UnitDirection};
 use crate::kernel::Model;
 use crate::unit::Unit;
@@ -76,7 +76,7 @@ pub fn encoded_len(source: &TemplateSource<'_>) -> usize {
 ///
 /// # Errors
 /// [`EncodeError`]: a name that is too long, unequal numbers of directions and weights, a buffer
-/// that is too small, or content that [`Template::from_bytes`] would refuse.
+/// that is too small, or content that [`super::Template::from_bytes`] would refuse.
 pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, EncodeError> {
     let name = String::try_from(source.name).map_err(|_| EncodeError::Name {
         capacity: NAME_CAPACITY,
@@ -152,7 +152,7 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
         checksum: wire::checksum(payload),
     }
     .to_bytes();
-    Template::from_bytes(written).map_err(EncodeError::Invalid)?;
+    validate::template(written).map_err(EncodeError::Invalid)?;
     Ok(used)
 }
 

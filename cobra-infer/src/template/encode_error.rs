@@ -5,6 +5,7 @@ use core::fmt;
 
 /// Why a template could not be written.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum EncodeError {
     /// The object's name does not fit.
     Name {

@@ -6,6 +6,7 @@ use core::fmt;
 
 /// A section of a template, by its tag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Section {
     /// Name, unit, bounding sphere, diameter.
     Object,
@@ -35,6 +36,7 @@ impl Section {
 
 /// Why bytes are not a template.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum TemplateError {
     /// The bytes end before the header does.
     HeaderTruncated {

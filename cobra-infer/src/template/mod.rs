@@ -5,6 +5,7 @@
 //! A [`Template`] borrows the bytes, at any alignment; its components are read by offset when they
 //! are needed, so that nothing of a template in flash is copied to RAM.
 
+mod cost;
 mod encode;
 mod encode_error;
 mod error;
@@ -13,6 +14,7 @@ mod precision;
 mod validate;
 mod wire;
 
+pub use cost::Cost;
 pub use encode::{ComponentSource, TemplateSource, encode, encoded_len};
 pub use encode_error::EncodeError;
 pub use error::{Section, TemplateError};
@@ -23,6 +25,7 @@ pub use wire::{
 
 use crate::gp::{self, Hyperparameters, Terms, UnitDirection, Word};
 use crate::kernel::{Kernel, Metric, Model};
+use crate::trace;
 use crate::unit::Unit;
 use heapless::String;
 use wire::{PrecisionRecord, Record};
@@ -56,16 +59,6 @@ pub struct Component<'a> {
     pub terms: Terms<'a>,
 }
 
-/// What scoring one point costs, in kernel evaluations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cost {
-    /// The most that nearest assignment needs: the terms of the largest component.
-    pub nearest: usize,
-    /// What maximum assignment always needs, and soft assignment at most: the terms of all
-    /// components.
-    pub maximum: usize,
-}
-
 impl<'a> Template<'a> {
     /// Checks `bytes`, which must be exactly one template, and borrows them.
     ///
@@ -84,7 +77,12 @@ impl<'a> Template<'a> {
     /// # Errors
     /// [`TemplateError`] says what is wrong and where.
     pub fn from_bytes(bytes: &'a [u8]) -> Result<Self, TemplateError> {
-        validate::template(bytes)
+        let result = validate::template(bytes);
+        match &result {
+            Ok(template) => trace::template_loaded(template),
+            Err(error) => trace::template_refused(error),
+        }
+        result
     }
 
     /// The object's name.
@@ -169,19 +167,6 @@ impl<'a> Template<'a> {
         let precision = self.precisions.and_then(|factors| factors.get(index));
         let record = self.records.get(index)?;
         Some(wire::component(record, precision, self.words))
-    }
-
-    /// The number of kernel evaluations that one point costs.
-    #[must_use]
-    pub fn cost(&self) -> Cost {
-        Cost {
-            nearest: self
-                .components()
-                .map(|component| component.terms.len())
-                .max()
-                .unwrap_or(0),
-            maximum: self.term_count(),
-        }
     }
 }
 

@@ -6,6 +6,7 @@ use crate::math;
 /// Q = LLᵀ of Eq. 8, by its factor L, a lower triangle with a positive diagonal: whatever its
 /// numbers, Q is positive definite, which no six entries of Q itself would say after rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Precision {
     lower: [f32; 6],
 }

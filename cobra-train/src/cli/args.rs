@@ -1,13 +1,14 @@
 //! The arguments of `cobra`, with the help that goes with them.
 
 use super::choices::{
-    AssignmentArgument, ExponentArgument, KernelArgument, LikelihoodArgument, MetricArgument,
-    SamplingArgument, ThresholdArgument, UnitArgument, WeightsArgument, not_negative, overlap,
-    positive,
+    AssignmentArgument, ExponentArgument, ExportFormat, KernelArgument, LikelihoodArgument,
+    MetricArgument, SamplingArgument, ThresholdArgument, UnitArgument, WeightsArgument, identifier,
+    not_negative, overlap, positive,
 };
 use super::learning::{OptimiserArgument, PriorMeanArgument, SubsetArgument, subset};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
+use cobra_train::export::Identifier;
 use cobra_train::train::Overlap;
 use std::path::PathBuf;
 
@@ -51,6 +52,8 @@ pub(crate) enum Command {
     Eval(EvalArguments),
     /// Show what is in a template, its size and its cost
     Inspect(InspectArguments),
+    /// Write a template as a file, as Rust or as C, for firmware that keeps it in flash
+    Export(ExportArguments),
     /// Print a completion script for a shell
     Completions {
         /// The shell
@@ -311,4 +314,35 @@ pub(crate) struct InspectArguments {
     /// Write the content as JSON, `-` for standard output
     #[arg(long, value_name = "FILE|-")]
     pub(crate) json: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The template is checked first. Bytes behind it are left out, whatever the format: \
+                  the file may be a dump of flash that starts with the template. Numbers stay in \
+                  the template's unit.\n\n\
+                  The Rust file is a module or goes into include!, and needs no std. The C header \
+                  goes into one source file, as C99, C11 or C++. Both are aligned to four \
+                  bytes.\n\n\
+                  Examples:\n  cobra export part.cobra --format rust -o part.rs\n  cobra export \
+                  part.cobra --format c --name part -o part.h\n  cobra export flash.bin --format \
+                  bin -o part.cobra"
+)]
+pub(crate) struct ExportArguments {
+    /// Template file, or a file that starts with a template
+    #[arg(value_name = "FILE.cobra")]
+    pub(crate) template: PathBuf,
+
+    /// What to write
+    #[arg(long, value_enum)]
+    pub(crate) format: ExportFormat,
+
+    /// File to write, `-` for standard output [default: standard output; for bin not a terminal]
+    #[arg(short, long, value_name = "FILE|-")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Name in the source, in capitals where the language has them so [default: the object's name
+    /// with _template behind]
+    #[arg(long, value_parser = identifier)]
+    pub(crate) name: Option<Identifier>,
 }

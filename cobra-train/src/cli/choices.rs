@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use cobra_infer::{Assignment, Exponent, Kernel, Likelihood, Metric, Smoothness, Threshold, Unit};
+use cobra_train::export::Identifier;
 use cobra_train::input::Weighting;
 use cobra_train::train::{Overlap, SurfaceSampling};
 
@@ -167,6 +168,20 @@ impl From<AssignmentArgument> for Assignment {
             AssignmentArgument::Soft => Assignment::Soft,
         }
     }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ExportFormat {
+    /// The template's bytes alone, checked
+    Bin,
+    /// A constant, `pub const PART_TEMPLATE: &[u8; N]`
+    Rust,
+    /// A header with an array, `static const uint8_t part_template[N]`, and `PART_TEMPLATE_SIZE`
+    C,
+}
+
+pub(super) fn identifier(text: &str) -> Result<Identifier, String> {
+    Identifier::new(text).map_err(|error| error.to_string())
 }
 
 pub(super) fn overlap(text: &str) -> Result<Overlap, String> {

@@ -24,7 +24,7 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
     let bytes = template_file::read(&arguments.template)?;
     let template = Template::from_bytes(&bytes)
         .map_err(|error| Failure::template(&arguments.template, &error))?;
-    let written: Vec<&Path> = outputs::json_file(arguments.json.as_ref())
+    let written: Vec<&Path> = outputs::named_file(arguments.json.as_ref())
         .into_iter()
         .chain(arguments.points_out.as_deref())
         .collect();

@@ -6,15 +6,16 @@ use super::outputs;
 use super::report::{JsonTarget, table};
 use super::template_file;
 use super::terminal::Terminal;
-use cobra_infer::Template;
 use cobra_infer::template::{RECORD_LENGTH, VERSION};
+use cobra_infer::{Assignment, Template};
+use cobra_train::export::features;
 use serde::Serialize;
 
 pub(super) fn run(arguments: &InspectArguments, terminal: &Terminal) -> Result<(), Failure> {
     let bytes = template_file::read(&arguments.template)?;
     let template = Template::from_bytes(&bytes)
         .map_err(|error| Failure::template(&arguments.template, &error))?;
-    if let Some(path) = outputs::json_file(arguments.json.as_ref()) {
+    if let Some(path) = outputs::named_file(arguments.json.as_ref()) {
         outputs::check(&[&arguments.template], &[path])?;
     }
     let document = Document::new(&template, bytes.len());
@@ -89,9 +90,7 @@ impl Document {
             metric: template.metric().name(),
             kernel: template.kernel().name(),
             parameter: template.kernel().parameter_name(),
-            features: std::iter::once(template.kernel().feature())
-                .chain(template.metric().feature())
-                .collect(),
+            features: features(template),
             precisions: template.has_precisions(),
             terms: template.term_count(),
             bytes: Bytes {
@@ -101,8 +100,8 @@ impl Document {
                 other: total - terms - records,
             },
             kernel_evaluations_per_point: Evaluations {
-                nearest_most: cost.nearest,
-                maximum: cost.maximum,
+                nearest_most: cost.of(Assignment::Nearest),
+                maximum: cost.of(Assignment::Maximum),
             },
             components: template
                 .components()

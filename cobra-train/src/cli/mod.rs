@@ -8,6 +8,7 @@ mod choices;
 mod coverage;
 mod demo;
 mod eval;
+mod export;
 mod failure;
 mod inspect;
 mod learning;
@@ -35,6 +36,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Score(arguments) => score::run(arguments, &terminal),
         Command::Eval(arguments) => eval::run(arguments, &terminal),
         Command::Inspect(arguments) => inspect::run(arguments, &terminal),
+        Command::Export(arguments) => export::run(arguments, &terminal),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Arguments::command(), "cobra", &mut script);

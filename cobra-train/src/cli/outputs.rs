@@ -21,9 +21,10 @@ pub(super) fn check(inputs: &[&Path], outputs: &[&Path]) -> Result<(), Failure> 
     Ok(())
 }
 
-/// The file that `--json` names, if it names one rather than standard output.
-pub(super) fn json_file(json: Option<&PathBuf>) -> Option<&Path> {
-    json.map(PathBuf::as_path)
+/// The file that an option names, if it names one rather than standard output.
+pub(super) fn named_file(option: Option<&PathBuf>) -> Option<&Path> {
+    option
+        .map(PathBuf::as_path)
         .filter(|path| *path != Path::new("-"))
 }
 

@@ -45,7 +45,7 @@ pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(),
         );
     }
     let jobs = pair(&estimates, &arguments.correspondences, terminal)?;
-    if let Some(path) = outputs::json_file(arguments.json.as_ref()) {
+    if let Some(path) = outputs::named_file(arguments.json.as_ref()) {
         let mut inputs = vec![
             arguments.template.as_path(),
             arguments.camera.as_path(),

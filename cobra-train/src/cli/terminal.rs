@@ -33,14 +33,24 @@ impl Terminal {
 
     /// A result, on standard output; a newline is added where the text has none.
     pub(crate) fn print(&self, text: &str) -> Result<(), Failure> {
-        let mut out = std::io::stdout().lock();
         let end = if text.ends_with('\n') { "" } else { "\n" };
-        write!(out, "{text}{end}")
+        self.write(format!("{text}{end}").as_bytes())
+    }
+
+    /// A result that need not be text, on standard output.
+    pub(crate) fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
+        let mut out = std::io::stdout().lock();
+        out.write_all(bytes)
             .and_then(|()| out.flush())
             .map_err(|error| match error.kind() {
                 std::io::ErrorKind::BrokenPipe => Failure::OutputClosed,
                 _ => Failure::Io(format!("cannot write to standard output: {error}")),
             })
+    }
+
+    /// Whether somebody sees results as they are printed, rather than a file or a program.
+    pub(crate) fn is_shown(&self) -> bool {
+        std::io::stdout().is_terminal()
     }
 
     /// A remark, unless quiet.

@@ -36,7 +36,7 @@ pub(super) fn run(arguments: &TrainArguments, terminal: &Terminal) -> Result<(),
     let mut inputs = vec![arguments.mesh.as_path()];
     inputs.extend(centres_file(arguments));
     let mut written = vec![arguments.output.as_path()];
-    written.extend(outputs::json_file(arguments.json.as_ref()));
+    written.extend(outputs::named_file(arguments.json.as_ref()));
     outputs::check(&inputs, &written)?;
     let mut options = options(arguments)?;
     let object = object::read(&arguments.mesh, arguments.unit_sphere, terminal)?;

@@ -2,7 +2,7 @@
 
 use crate::run::{run, succeed};
 
-const COMMANDS: [&str; 5] = ["demo", "train", "score", "eval", "inspect"];
+const COMMANDS: [&str; 6] = ["demo", "train", "score", "eval", "inspect", "export"];
 
 #[test]
 fn every_commands_help_names_units_and_shows_an_example() {
@@ -54,6 +54,7 @@ fn there_are_completions_for_the_common_shells() {
         let script = succeed(["completions", shell]).stdout;
         assert!(script.contains("cobra"), "{shell}");
         assert!(script.contains("reference-points"), "{shell}");
+        assert!(script.contains("export"), "{shell}");
     }
 }
 

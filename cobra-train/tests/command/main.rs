@@ -3,6 +3,8 @@
 mod camera_input;
 mod demo;
 mod eval;
+mod export;
+mod export_input;
 mod geometry_input;
 mod help;
 mod inspect;

@@ -25,6 +25,10 @@ fn an_output_that_cannot_be_written_is_named_and_leaves_nothing() {
         refuse(scene.score(&["--json", path]), 4, said);
         let inspect = ["inspect", "@part.cobra", "--json", path];
         refuse(scene.arguments(&inspect), 4, said);
+        for format in ["bin", "rust", "c"] {
+            let export = ["export", "@part.cobra", "--format", format, "-o", path];
+            refuse(scene.arguments(&export), 4, said);
+        }
         for option in ["--json", "--points-out"] {
             let eval = ["eval", "@part.cobra", "--mesh", "@box.obj", option, path];
             refuse(scene.arguments(&eval), 4, said);
@@ -77,6 +81,17 @@ fn an_input_is_never_overwritten() {
     }
     let inspect = ["inspect", "@part.cobra", "--json", "@part.cobra"];
     refuse(scene.arguments(&inspect), 2, &["part.cobra is both"]);
+    for format in ["bin", "rust", "c"] {
+        let export = [
+            "export",
+            "@part.cobra",
+            "--format",
+            format,
+            "-o",
+            "@part.cobra",
+        ];
+        refuse(scene.arguments(&export), 2, &["part.cobra is both"]);
+    }
     for path in ["@part.cobra", "@box.obj"] {
         for option in ["--json", "--points-out"] {
             let eval = ["eval", "@part.cobra", "--mesh", "@box.obj", option, path];
@@ -135,6 +150,8 @@ fn a_reader_that_leaves_is_no_error() {
         scene.score(&[]),
         scene.score(&["--json", "-"]),
         scene.arguments(&["inspect", "@part.cobra"]),
+        scene.arguments(&["export", "@part.cobra", "--format", "bin"]),
+        scene.arguments(&["export", "@part.cobra", "--format", "c", "-o", "-"]),
         scene.arguments(&["completions", "bash"]),
         scene.arguments(&["--help"]),
     ];

@@ -1,0 +1,30 @@
+//! What every board runs: no start-up code, no device.
+//!
+//! | module | owns |
+//! |---|---|
+//! | [`score`] | the example: a template in flash, a stream of correspondences, a watchdog, a report |
+//! | [`footprint`] | the least that a controller links: load and score, nothing printed |
+//! | [`agreement`] | the recorded vectors, scored here and compared bit by bit |
+//! | [`budget`] | stack and instructions of load and score |
+//! | [`stack`] | how deep a call reaches into the stack |
+//! | `console` | standard output through a debugger, with the feature `semihosting` |
+#![no_std]
+
+pub mod agreement;
+pub mod budget;
+#[cfg(feature = "semihosting")]
+pub mod console;
+pub mod footprint;
+pub mod score;
+pub mod stack;
+
+/// What the application needs of a board.
+pub trait Board {
+    /// Its name, as QEMU has it.
+    fn name(&self) -> &'static str;
+    /// Tells the watchdog that the program is alive.
+    fn feed_watchdog(&mut self);
+    /// Instructions that the emulator has executed, from any start, wrapping around: only
+    /// differences mean something.
+    fn instructions(&mut self) -> u64;
+}

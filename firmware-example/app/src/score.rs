@@ -1,0 +1,104 @@
+//! The example: a template in flash, a stream of correspondences, a watchdog, a report.
+
+use crate::Board;
+use crate::footprint::{COMPONENTS, Refusal, load_and_score};
+use cobra_agreement::vectors::Points;
+use cobra_infer::{Correspondence, Report, Scorer, Settings, Template};
+use core::fmt::{self, Write};
+
+/// Linked into flash and read there: nothing of it is copied to RAM.
+static TEMPLATE: &[u8] = cobra_agreement::SETS[0].template;
+
+/// What a camera and an estimator would deliver.
+static STREAM: &[u8] = cobra_agreement::SETS[0].points;
+
+/// Scores the right pose and a wrong one, then shows what is refused.
+///
+/// # Errors
+/// Those of `out`.
+pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
+    writeln!(out, "COBRA on {}", board.name())?;
+    let template = match Template::from_bytes(TEMPLATE) {
+        Ok(template) => template,
+        Err(error) => return writeln!(out, "the template is refused: {error}"),
+    };
+    writeln!(
+        out,
+        "template `{}` in {} bytes of flash: {} components, at most {} kernel evaluations a point",
+        template.name(),
+        TEMPLATE.len(),
+        template.component_count(),
+        template.cost().nearest
+    )?;
+    let Some((points, camera)) = Points::read(STREAM).and_then(|p| Some((p, p.camera()?))) else {
+        return writeln!(out, "the stream does not read");
+    };
+    for (index, title) in [(0, "right pose"), (1, "wrong pose")] {
+        let Some(pose) = points.pose(index, false) else {
+            return writeln!(out, "the {title} does not read");
+        };
+        let stream = points.correspondences().filter(is_sound);
+        let report = load_and_score(TEMPLATE, &camera, &pose, stream, || board.feed_watchdog());
+        match report {
+            Ok(report) => print(&report, title, out)?,
+            Err(Refusal::Template(error)) => writeln!(out, "{title}: {error}")?,
+            Err(Refusal::Score(error)) => writeln!(out, "{title}: {error}")?,
+        }
+    }
+    refusals(out)
+}
+
+/// What an estimator should not deliver, but the vectors hold, would make every pose undecided.
+fn is_sound(correspondence: &Correspondence) -> bool {
+    correspondence.is_finite() && correspondence.weight >= 0.0
+}
+
+fn print(report: &Report, title: &str, out: &mut impl Write) -> fmt::Result {
+    writeln!(
+        out,
+        "{title}: {} points, confidence {:.3} ({:08x}), threshold {:.3} ({:08x}): {}, {}",
+        report.points,
+        report.confidence,
+        report.confidence.to_bits(),
+        report.threshold,
+        report.threshold.to_bits(),
+        report.decision.name(),
+        report.decision.reason()
+    )
+}
+
+/// Every board must refuse the same input for the same reason as the host.
+fn refusals(out: &mut impl Write) -> fmt::Result {
+    let mut corrupted = [0; cobra_agreement::SETS[2].template.len()];
+    for (index, (byte, sound)) in corrupted
+        .iter_mut()
+        .zip(cobra_agreement::SETS[2].template)
+        .enumerate()
+    {
+        *byte = if index == 300 { sound ^ 0x10 } else { *sound };
+    }
+    let short = TEMPLATE
+        .split_at_checked(1000)
+        .map_or(TEMPLATE, |(head, _)| head);
+    for (title, bytes) in [
+        ("corrupted template", &corrupted[..]),
+        ("cut template", short),
+    ] {
+        match Template::from_bytes(bytes) {
+            Ok(_) => writeln!(out, "{title}: NOT REFUSED")?,
+            Err(error) => writeln!(out, "{title} refused: {error}")?,
+        }
+    }
+    let (Ok(template), Some(points)) = (Template::from_bytes(TEMPLATE), Points::read(STREAM))
+    else {
+        return writeln!(out, "the template or the stream does not read");
+    };
+    let settings = Settings::for_template(&template, 2.0);
+    if let (Some(camera), Some(pose)) = (points.camera(), points.pose(0, false)) {
+        match Scorer::<2>::new(&template, &camera, &pose, &settings) {
+            Ok(_) => writeln!(out, "template too large for the scorer: NOT REFUSED")?,
+            Err(error) => writeln!(out, "template too large for the scorer refused: {error}")?,
+        }
+    }
+    writeln!(out, "room for components: {COMPONENTS}")
+}

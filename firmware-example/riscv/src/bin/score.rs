@@ -1,0 +1,18 @@
+//! The example on a RISC-V board: `cargo run --release`.
+#![no_std]
+#![no_main]
+
+use cobra_firmware_app::console::{Console, exit};
+use cobra_firmware_app::score;
+use cobra_riscv::Virt;
+use riscv_rt::entry;
+
+cobra_firmware_app::print_panics!();
+
+#[entry]
+fn main() -> ! {
+    let (Some(mut board), Some(mut console)) = (Virt::new(), Console::new()) else {
+        exit(false)
+    };
+    exit(score::run(&mut board, &mut console).is_ok())
+}
