@@ -159,7 +159,8 @@ fn a_camera_a_pose_or_a_setting_out_of_range_has_a_status_of_its_own() {
         pose.rotation[entry] = value;
         assert_eq!(refused(&CAMERA, &pose, &defaults), expected);
     }
-    let changes: [(fn(&mut CobraSettings), S); 8] = [
+    type Change = fn(&mut CobraSettings);
+    let changes: [(Change, S); 8] = [
         (|s| s.delta = 0.0, S::ScoreDelta),
         (|s| (s.sigma_kind, s.sigma) = (1, 0.0), S::ScoreSigma),
         (|s| s.sigma = -1.0, S::ScoreNoise),
