@@ -1,0 +1,204 @@
+//! What is checked of a pointer before it is used, and the handles that live in the caller's memory.
+//!
+//! That a pointer is not NULL, is aligned, and does not wrap around the address space can be
+//! checked. That memory really lies behind it cannot: this is what every function of the interface
+//! asks of its caller, and what the safety comments mean by "the caller's promise".
+#![allow(unsafe_code, reason = "raw pointers come from C")]
+
+use crate::status::CobraStatus;
+use core::ffi::c_void;
+use core::ptr;
+
+/// A structure in memory of the caller's. Its seal tells it from memory that holds anything else,
+/// zeros for instance.
+pub(crate) trait Handle: Sized {
+    /// What it holds besides its seal.
+    type Content;
+    /// What the seal of a made handle is.
+    const SEAL: u32;
+    /// Where the seal, a `u32`, lies in it.
+    const SEAL_OFFSET: usize;
+    /// Where the content lies in it.
+    const CONTENT_OFFSET: usize;
+}
+
+/// A range of addresses.
+#[derive(Clone, Copy)]
+pub(crate) struct Region {
+    start: usize,
+    end: usize,
+}
+
+impl Region {
+    pub(crate) fn new<T>(start: *const T, bytes: usize) -> Result<Self, CobraStatus> {
+        let start = start.addr();
+        // No object is larger than isize::MAX, and Rust relies on it.
+        if bytes > isize::MAX.unsigned_abs() {
+            return Err(CobraStatus::LengthTooLarge);
+        }
+        let end = start.checked_add(bytes);
+        let end = end.ok_or(CobraStatus::LengthTooLarge)?;
+        Ok(Self { start, end })
+    }
+
+    fn overlaps(self, other: Self) -> bool {
+        self.start < other.end && other.start < self.end
+    }
+}
+
+/// Not NULL, and aligned.
+fn usable<T>(pointer: *const T) -> Result<(), CobraStatus> {
+    if pointer.is_null() {
+        Err(CobraStatus::NullPointer)
+    } else if pointer.is_aligned() {
+        Ok(())
+    } else {
+        Err(CobraStatus::Misaligned)
+    }
+}
+
+/// Reads a structure of which every bit pattern is a value.
+///
+/// # Safety
+/// `pointer` is NULL, misaligned, or points to a `T` of which every bit pattern is valid.
+pub(crate) unsafe fn read<T: Copy>(pointer: *const T) -> Result<T, CobraStatus> {
+    usable(pointer)?;
+    // SAFETY: not NULL, aligned, and the caller's promise.
+    Ok(unsafe { pointer.read() })
+}
+
+/// Writes through a pointer; what was there before is not looked at.
+///
+/// # Safety
+/// `pointer` is NULL, misaligned, or points to memory for a `T` that may be written.
+pub(crate) unsafe fn write<T: Copy>(pointer: *mut T, value: T) -> Result<(), CobraStatus> {
+    usable(pointer)?;
+    // SAFETY: not NULL, aligned, and the caller's promise.
+    unsafe { pointer.write(value) };
+    Ok(())
+}
+
+/// Like [`write`], but NULL says that the value is not wanted.
+///
+/// # Safety
+/// As [`write`].
+pub(crate) unsafe fn write_optional<T: Copy>(pointer: *mut T, value: T) -> Result<(), CobraStatus> {
+    if pointer.is_null() {
+        return Ok(());
+    }
+    // SAFETY: as this function's.
+    unsafe { write(pointer, value) }
+}
+
+/// An array.
+///
+/// # Safety
+/// `pointer` is NULL, misaligned, or points to `count` values of which every bit pattern is valid
+/// and that nobody changes for as long as the slice is used.
+pub(crate) unsafe fn slice<'a, T: Copy>(
+    pointer: *const T,
+    count: usize,
+) -> Result<&'a [T], CobraStatus> {
+    usable(pointer)?;
+    let bytes = count.checked_mul(size_of::<T>());
+    Region::new(pointer, bytes.ok_or(CobraStatus::LengthTooLarge)?)?;
+    // SAFETY: not NULL, aligned, no larger than an object may be, and the caller's promise.
+    Ok(unsafe { core::slice::from_raw_parts(pointer, count) })
+}
+
+fn seal<H: Handle>(handle: *const H) -> *mut u32 {
+    handle
+        .wrapping_byte_add(H::SEAL_OFFSET)
+        .cast::<u32>()
+        .cast_mut()
+}
+
+/// # Safety
+/// `handle` is NULL, misaligned, or points to initialised memory of a handle's size.
+unsafe fn sealed<H: Handle>(handle: *const H) -> Result<(), CobraStatus> {
+    usable(handle)?;
+    // SAFETY: inside that memory, at a place aligned for a `u32`.
+    if unsafe { seal(handle).read() } == H::SEAL {
+        Ok(())
+    } else {
+        Err(CobraStatus::NotReady)
+    }
+}
+
+/// A handle to read from.
+///
+/// # Safety
+/// `handle` is NULL, misaligned, or points to initialised memory of a handle's size; where that
+/// holds a handle, nobody changes it meanwhile and what it borrows is still there.
+pub(crate) unsafe fn open<'a, H: Handle>(handle: *const H) -> Result<&'a H, CobraStatus> {
+    // SAFETY: the caller's promise.
+    unsafe { sealed(handle) }?;
+    // SAFETY: the seal says that `make` put a handle there; the rest is the caller's promise.
+    Ok(unsafe { &*handle })
+}
+
+/// A handle to change.
+///
+/// # Safety
+/// As [`open`], and nobody reads the handle meanwhile.
+pub(crate) unsafe fn open_mut<'a, H: Handle>(handle: *mut H) -> Result<&'a mut H, CobraStatus> {
+    // SAFETY: the caller's promise.
+    unsafe { sealed(handle.cast_const()) }?;
+    // SAFETY: as in `open`.
+    Ok(unsafe { &mut *handle })
+}
+
+/// Puts a handle into the caller's memory and tells `out` where it is. When `build` fails, the
+/// memory holds no handle.
+///
+/// `argument` is what the handle will borrow, which the memory must not overlap.
+///
+/// # Safety
+/// `memory` is NULL, misaligned, or points to `size` bytes that may be written; `out` as in
+/// [`write`].
+pub(crate) unsafe fn make<H: Handle>(
+    memory: *mut c_void,
+    size: usize,
+    out: *mut *mut H,
+    argument: Region,
+    build: impl FnOnce() -> Result<H::Content, CobraStatus>,
+) -> Result<(), CobraStatus> {
+    let place = memory.cast::<H>();
+    usable(place.cast_const())?;
+    if size < size_of::<H>() {
+        return Err(CobraStatus::MemoryTooSmall);
+    }
+    let region = Region::new(place, size_of::<H>())?;
+    if region.overlaps(argument) || region.overlaps(Region::new(out, size_of::<*mut H>())?) {
+        return Err(CobraStatus::Overlap);
+    }
+    // SAFETY: inside the memory, which is aligned, large enough and, the caller's promise, writable.
+    unsafe { seal(place).write(0) };
+    let content = place
+        .wrapping_byte_add(H::CONTENT_OFFSET)
+        .cast::<H::Content>();
+    // By part, because a whole handle would first be put together on the stack.
+    // SAFETY: as above.
+    unsafe { content.write(build()?) };
+    // SAFETY: as above.
+    unsafe { seal(place).write(H::SEAL) };
+    // SAFETY: the caller's promise.
+    unsafe { write(out, place) }
+}
+
+/// Sets a handle's pointer to NULL before anything can fail.
+///
+/// # Safety
+/// As [`write`].
+pub(crate) unsafe fn clear<H: Handle>(out: *mut *mut H) -> Result<(), CobraStatus> {
+    // SAFETY: as this function's.
+    unsafe { write(out, ptr::null_mut()) }
+}
+
+/// What C gets.
+pub(crate) fn status(outcome: Result<(), CobraStatus>) -> CobraStatus {
+    match outcome {
+        Ok(()) => CobraStatus::Ok,
+        Err(status) => status,
+    }
+}

@@ -1,0 +1,50 @@
+//! The texts of statuses, decisions and reasons: static, in English, zero-terminated.
+#![allow(unsafe_code, reason = "exported symbols")]
+
+use crate::status::CobraStatus;
+use core::ffi::{CStr, c_char};
+
+/// What a status says, as a phrase. Never NULL, also for a number that is no CobraStatus.
+#[unsafe(no_mangle)]
+pub extern "C" fn cobra_status_string(status: u32) -> *const c_char {
+    CobraStatus::from_number(status)
+        .map_or(c"unknown status", CobraStatus::text)
+        .as_ptr()
+}
+
+/// `accept`, `reject` or `undecided`. Never NULL, also for a number that is no CobraDecision.
+#[unsafe(no_mangle)]
+pub extern "C" fn cobra_decision_string(decision: u32) -> *const c_char {
+    decision_text(decision).as_ptr()
+}
+
+/// What a reason says, as a phrase. Never NULL, also for a number that is no CobraReason.
+#[unsafe(no_mangle)]
+pub extern "C" fn cobra_reason_string(reason: u32) -> *const c_char {
+    reason_text(reason).as_ptr()
+}
+
+pub(crate) const fn decision_text(decision: u32) -> &'static CStr {
+    match decision {
+        0 => c"undecided",
+        1 => c"reject",
+        2 => c"accept",
+        _ => c"unknown decision",
+    }
+}
+
+pub(crate) const fn reason_text(reason: u32) -> &'static CStr {
+    match reason {
+        0 => c"nothing was scored",
+        1 => c"confidence reaches the threshold",
+        2 => c"confidence below the threshold",
+        3 => c"no point lies on the surface",
+        4 => c"every point lies behind the camera",
+        5 => c"too few points",
+        6 => c"the weights add up to zero or next to nothing",
+        7 => c"a number in the input is not finite",
+        8 => c"a weight is negative",
+        9 => c"the threshold is zero: the tolerance is immense against sigma",
+        _ => c"unknown reason",
+    }
+}
