@@ -32,48 +32,52 @@ pub type Word = [u8; 4];
 /// A direction lies in the coordinates of the template's metric: a unit vector, or (φ, θ, 0).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Terms<'a> {
-    /// A multiple of four.
-    words: &'a [Word],
+    /// As many as there are terms. What lies in four are not a term's words: they are four of them
+    /// only so that their number needs no check.
+    quads: &'a [[Word; 4]],
 }
 
 impl<'a> Terms<'a> {
-    pub(crate) const EMPTY: Self = Self { words: &[] };
+    #[inline]
+    pub(crate) const fn from_quads(quads: &'a [[Word; 4]]) -> Self {
+        Self { quads }
+    }
 
     /// Of all x, all y, all z, all weights. `None` when the length is not a multiple of four.
     #[must_use]
     pub fn from_words(words: &'a [Word]) -> Option<Self> {
-        words.len().is_multiple_of(4).then_some(Self { words })
+        let (quads, rest) = words.as_chunks();
+        rest.is_empty().then_some(Self { quads })
     }
 
     /// How many terms there are.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.words.len() / 4
+        self.quads.len()
     }
 
     /// Whether there is no term.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.words.is_empty()
+        self.quads.is_empty()
     }
 
-    /// All x, all y, all z, all weights.
+    /// All x, all y, all z, all weights; always some, but for the compiler, which then sees that
+    /// the four are of one length.
     #[inline]
-    fn arrays(&self) -> [&'a [Word]; 4] {
-        let count = self.len();
-        let split = |words: &'a [Word]| words.split_at_checked(count).unwrap_or((words, &[]));
-        let (x, rest) = split(self.words);
-        let (y, rest) = split(rest);
-        let (z, rest) = split(rest);
-        // Not what is left, so that the compiler sees that all four are of one length.
-        let (weights, _) = split(rest);
-        [x, y, z, weights]
+    fn arrays(&self) -> Option<[&'a [Word]; 4]> {
+        let count = self.quads.len();
+        let (x, rest) = self.quads.as_flattened().split_at_checked(count)?;
+        let (y, rest) = rest.split_at_checked(count)?;
+        let (z, rest) = rest.split_at_checked(count)?;
+        let (weights, _) = rest.split_at_checked(count)?;
+        Some([x, y, z, weights])
     }
 
     /// The terms one by one: direction, in the metric's coordinates, and weight.
     pub fn iter(&self) -> impl Iterator<Item = ([f32; 3], f32)> + use<'a> {
         let read = |word: &Word| f32::from_le_bytes(*word);
-        let [x, y, z, weights] = self.arrays();
+        let [x, y, z, weights] = self.arrays().unwrap_or([&[]; 4]);
         x.iter()
             .zip(y)
             .zip(z)

@@ -144,8 +144,10 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
         pose: &Pose,
         settings: &Settings,
     ) -> Result<Self, ScoreError> {
-        Ok(Self {
-            mixture: Mixture::new(template, settings)?,
+        Mixture::<COMPONENTS>::check(template, settings)?;
+        // Filled inside the result: a scorer moved into it would lie on the stack twice.
+        let mut result = Ok(Self {
+            mixture: Mixture::unprepared(template, settings),
             camera: *camera,
             pose: *pose,
             likelihood: settings.likelihood,
@@ -159,7 +161,11 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
             inliers: 0,
             behind_camera: 0,
             doubt: None,
-        })
+        });
+        if let Ok(scorer) = &mut result {
+            scorer.mixture.prepare(settings);
+        }
+        result
     }
 
     /// Takes one correspondence.
@@ -168,9 +174,16 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
     /// undecided; it is counted and otherwise left out.
     pub fn push(&mut self, correspondence: &Correspondence) -> PointScore {
         self.points = self.points.saturating_add(1);
-        let fault = if !correspondence.is_finite() {
+        let weight = correspondence.weight;
+        let back =
+            self.camera
+                .back_project(&self.pose, &correspondence.pixel, &correspondence.point);
+        // A pixel or a point that is not finite leaves no finite depth: most correspondences are
+        // through with one look at it.
+        let suspect = !(back.depth.is_finite() && weight.is_finite());
+        let fault = if suspect && !correspondence.is_finite() {
             Some(Doubt::NonFiniteInput)
-        } else if correspondence.weight < 0.0 {
+        } else if weight < 0.0 {
             Some(Doubt::NegativeWeight)
         } else {
             None
@@ -182,9 +195,6 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
                 found: None,
             };
         }
-        let back =
-            self.camera
-                .back_project(&self.pose, &correspondence.pixel, &correspondence.point);
         // An overflow makes the depth NaN: that point is nowhere, not behind the camera.
         let found = if back.depth <= 0.0 {
             self.behind_camera = self.behind_camera.saturating_add(1);
@@ -196,7 +206,6 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
         if found.is_some_and(|found| math::abs(found.residual()) <= self.delta) {
             self.inliers = self.inliers.saturating_add(1);
         }
-        let weight = correspondence.weight;
         if weight > 0.0 {
             self.weighty = self.weighty.saturating_add(1);
         }

@@ -4,6 +4,7 @@ use super::*;
 use crate::camera::{cobra_check_distortion, cobra_pose_orthonormalise};
 use crate::template::{cobra_template_explain, cobra_template_peek_length, detail};
 use crate::types::{COBRA_NOT_APPLICABLE, CobraTemplateDetail};
+use cobra_infer::template::{Number, Range};
 use cobra_infer::{Exponent, Kernel, Metric, Section, TemplateError as E};
 
 use CobraStatus as S;
@@ -95,13 +96,13 @@ fn every_template_error_has_a_status_of_its_own() {
         E::TermRange { component },
         E::UnusedTerms { expected, found },
         E::ObjectNumber {
-            field: "radius",
+            number: Number::Radius,
             found: -1.0,
         },
         E::ComponentNumber {
             component,
-            field: "",
-            expected: "",
+            number: Number::SigmaHat,
+            expected: Range::Normal,
             found: -1.0,
         },
         E::Weight { component, term },

@@ -20,7 +20,9 @@ pub(super) fn weighted_sum<K: Covariance<f32>>(
     query: [f32; 3],
 ) -> f32 {
     // One by one: a `map` over the four is a loop at `opt-level = "s"`.
-    let [xs, ys, zs, ws] = terms.arrays();
+    let Some([xs, ys, zs, ws]) = terms.arrays() else {
+        return f32::NAN;
+    };
     let (xs, x_rest) = xs.as_chunks();
     let (ys, y_rest) = ys.as_chunks();
     let (zs, z_rest) = zs.as_chunks();

@@ -190,10 +190,42 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
     /// # Errors
     /// [`ScoreError::TooManyComponents`], or a setting out of its range.
     pub fn new(template: &'t Template<'t>, settings: &Settings) -> Result<Self, ScoreError> {
+        Self::check(template, settings)?;
+        let mut mixture = Self::unprepared(template, settings);
+        mixture.prepare(settings);
+        Ok(mixture)
+    }
+
+    /// Whether [`Mixture::new`] would have an error.
+    pub(crate) fn check(template: &Template<'_>, settings: &Settings) -> Result<(), ScoreError> {
         settings.check()?;
-        let mut prepared = Vec::new();
-        let mut largest_threshold = 0.0;
-        for component in template.stored() {
+        let found = template.component_count();
+        if found > COMPONENTS {
+            return Err(ScoreError::TooManyComponents {
+                capacity: COMPONENTS,
+                found,
+            });
+        }
+        Ok(())
+    }
+
+    /// Of what [`Mixture::check`] has passed, and to be filled by [`Mixture::prepare`]: in two steps,
+    /// so that it is built where it is to lie and nothing large is moved.
+    #[inline]
+    pub(crate) fn unprepared(template: &'t Template<'t>, settings: &Settings) -> Self {
+        Self {
+            template,
+            likelihood: settings.likelihood,
+            assignment: settings.assignment,
+            smallest_distance: tolerance::NO_DIRECTION * template.radius(),
+            largest_threshold: 0.0,
+            prepared: Vec::new(),
+        }
+    }
+
+    /// σ, its inverse and its threshold for each component.
+    pub(crate) fn prepare(&mut self, settings: &Settings) {
+        for component in self.template.stored() {
             let sigma = match settings.sigma {
                 Sigma::Fixed(sigma) => sigma,
                 Sigma::Template { noise } => combined(component.sigma_hat(), noise),
@@ -204,28 +236,17 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
                 sigma,
                 settings.delta,
             );
-            if threshold > largest_threshold {
-                largest_threshold = threshold;
+            if threshold > self.largest_threshold {
+                self.largest_threshold = threshold;
             }
-            prepared
-                .push(Prepared {
-                    inverse_sigma: 1.0 / sigma,
-                    log_sigma: math::ln(sigma),
-                    threshold,
-                })
-                .map_err(|_| ScoreError::TooManyComponents {
-                    capacity: COMPONENTS,
-                    found: template.component_count(),
-                })?;
+            let prepared = Prepared {
+                inverse_sigma: 1.0 / sigma,
+                log_sigma: math::ln(sigma),
+                threshold,
+            };
+            // There is room for all of them.
+            let _ = self.prepared.push(prepared);
         }
-        Ok(Self {
-            template,
-            likelihood: settings.likelihood,
-            assignment: settings.assignment,
-            smallest_distance: tolerance::NO_DIRECTION * template.radius(),
-            largest_threshold,
-            prepared,
-        })
     }
 
     /// The component that speaks for `point`, and what it says; `None` when none can: the point

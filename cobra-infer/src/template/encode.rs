@@ -14,7 +14,6 @@ use super::{Precision, validate};
 use crate::gp::{Hyperparameters, UnitDirection};
 use crate::kernel::Model;
 use crate::unit::Unit;
-use heapless::String;
 use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
 
@@ -78,10 +77,12 @@ pub fn encoded_len(source: &TemplateSource<'_>) -> usize {
 /// [`EncodeError`]: a name that is too long, unequal numbers of directions and weights, a buffer
 /// that is too small, or content that [`super::Template::from_bytes`] would refuse.
 pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, EncodeError> {
-    let name = String::try_from(source.name).map_err(|_| EncodeError::Name {
-        capacity: NAME_CAPACITY,
-        found: source.name.len(),
-    })?;
+    if source.name.len() > NAME_CAPACITY {
+        return Err(EncodeError::Name {
+            capacity: NAME_CAPACITY,
+            found: source.name.len(),
+        });
+    }
     for (component, c) in source.components.iter().enumerate() {
         if c.directions.len() != c.weights.len() {
             return Err(EncodeError::TermCount {
@@ -106,7 +107,7 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
         &mut used,
         Section::Object,
         &ObjectSection {
-            name,
+            name: source.name,
             unit: source.unit,
             centre: source.centre,
             radius: source.radius,

@@ -1,6 +1,7 @@
 //! What can be wrong with a template: small `Copy` values that say what was found and, where there
 //! is a choice, what was expected.
 
+use super::number::{Number, Range};
 use crate::kernel::{Kernel, Metric};
 use core::fmt;
 
@@ -163,7 +164,7 @@ pub enum TemplateError {
     /// A number of the object section is not finite and positive (the centre: not finite).
     ObjectNumber {
         /// Which one.
-        field: &'static str,
+        number: Number,
         /// Its value.
         found: f32,
     },
@@ -172,9 +173,9 @@ pub enum TemplateError {
         /// Which component.
         component: usize,
         /// Which number.
-        field: &'static str,
+        number: Number,
         /// What it must be.
-        expected: &'static str,
+        expected: Range,
         /// Its value.
         found: f32,
     },
@@ -316,17 +317,19 @@ impl fmt::Display for TemplateError {
                 f,
                 "the components use {expected} terms, but the terms section holds {found}"
             ),
-            E::ObjectNumber { field, found } => {
-                write!(f, "the object's {field} is {found}")
+            E::ObjectNumber { number, found } => {
+                write!(f, "the object's {} is {found}", number.name())
             }
             E::ComponentNumber {
                 component,
-                field,
+                number,
                 expected,
                 found,
             } => write!(
                 f,
-                "component {component}: {field} must be {expected}, found {found}"
+                "component {component}: {} must be {}, found {found}",
+                number.name(),
+                expected.text()
             ),
             E::Weight { component, term } => {
                 write!(f, "component {component}: weight {term} is not finite")

@@ -10,6 +10,7 @@ mod encode;
 mod encode_error;
 mod error;
 mod near;
+mod number;
 mod precision;
 mod stored;
 mod validate;
@@ -19,23 +20,23 @@ pub use cost::Cost;
 pub use encode::{ComponentSource, TemplateSource, encode, encoded_len};
 pub use encode_error::EncodeError;
 pub use error::{Section, TemplateError};
+pub use number::{Number, Range};
 pub use precision::Precision;
 pub use wire::{
     HEADER_LENGTH, MAGIC, NAME_CAPACITY, PRECISION_LENGTH, RECORD_LENGTH, VERSION, peek_len,
 };
 
-use crate::gp::{self, Hyperparameters, Terms, UnitDirection, Word};
+use crate::gp::{self, Hyperparameters, Terms, UnitDirection};
 use crate::kernel::{Kernel, Metric, Model};
 use crate::trace;
 use crate::unit::Unit;
-use heapless::String;
 pub(crate) use stored::Stored;
-use wire::{PrecisionRecord, Record};
+use wire::{PrecisionRecord, Quad, Record};
 
 /// A validated template over borrowed bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Template<'a> {
-    name: String<NAME_CAPACITY>,
+    name: &'a str,
     unit: Unit,
     centre: [f32; 3],
     radius: f32,
@@ -43,7 +44,7 @@ pub struct Template<'a> {
     model: Model,
     records: &'a [Record],
     precisions: Option<&'a [PrecisionRecord]>,
-    words: &'a [Word],
+    quads: &'a [Quad],
 }
 
 /// One component of a template: a reference point and the Gaussian process around it.
@@ -89,8 +90,8 @@ impl<'a> Template<'a> {
 
     /// The object's name.
     #[must_use]
-    pub fn name(&self) -> &str {
-        &self.name
+    pub fn name(&self) -> &'a str {
+        self.name
     }
 
     /// The unit of every length in the template.
@@ -150,16 +151,16 @@ impl<'a> Template<'a> {
     /// How many terms all components have together.
     #[must_use]
     pub fn term_count(&self) -> usize {
-        self.words.len() / 4
+        self.quads.len()
     }
 
     /// The components, each read from its record as it is asked for.
     pub fn components(&self) -> impl ExactSizeIterator<Item = Component<'a>> + use<'a> {
-        let words = self.words;
+        let quads = self.quads;
         let mut precisions = self.precisions.map(<[PrecisionRecord]>::iter);
         self.records.iter().map(move |record| {
             let precision = precisions.as_mut().and_then(Iterator::next);
-            Stored::new(record, words).component(precision.map(Precision::from_validated))
+            Stored::new(record, quads).component(precision.map(Precision::from_record))
         })
     }
 
@@ -168,7 +169,7 @@ impl<'a> Template<'a> {
     pub fn component(&self, index: usize) -> Option<Component<'a>> {
         let precision = self.precisions.and_then(|factors| factors.get(index));
         let stored = self.stored_at(index)?;
-        Some(stored.component(precision.map(Precision::from_validated)))
+        Some(stored.component(precision.map(Precision::from_record)))
     }
 }
 

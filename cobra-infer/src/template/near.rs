@@ -18,7 +18,7 @@ impl Template<'_> {
                 math::dot(offset, offset)
             })),
             Some(factors) => least(records.zip(factors).map(|(record, factor)| {
-                Precision::from_validated(factor).form(wire::offset(record, point))
+                Precision::from_record(factor).form(wire::offset(record, point))
             })),
         }
     }
@@ -31,7 +31,7 @@ impl Template<'_> {
         self.records.iter().map(move |record| {
             let offset = wire::offset(record, point);
             match factors.as_mut().and_then(Iterator::next) {
-                Some(factor) => Precision::from_validated(factor).form(offset),
+                Some(factor) => Precision::from_record(factor).form(offset),
                 None => {
                     let scaled = offset.map(|coordinate| coordinate * inverse_radius);
                     math::dot(scaled, scaled)

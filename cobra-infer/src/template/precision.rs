@@ -1,6 +1,7 @@
 //! The precision Q_k of a component's neighbourhood.
 
 use super::wire::PrecisionRecord;
+use crate::gp::Word;
 use crate::math;
 
 /// Q = LLᵀ of Eq. 8, by its factor L, a lower triangle with a positive diagonal: whatever its
@@ -16,17 +17,27 @@ impl Precision {
     /// finite and the diagonal is positive and no subnormal.
     #[must_use]
     pub fn from_factor(lower: [f32; 6]) -> Option<Self> {
-        let [xx, _, yy, _, _, zz] = lower;
-        let positive = [xx, yy, zz].iter().all(|d| *d >= f32::MIN_POSITIVE);
-        let finite = lower.iter().all(|entry| entry.is_finite());
-        (positive && finite).then_some(Self { lower })
+        let precision = Self { lower };
+        precision.is_valid().then_some(precision)
     }
 
-    /// A factor that loading has checked.
-    pub(super) fn from_validated(factor: &PrecisionRecord) -> Self {
+    /// A factor as it lies in the file: valid where loading has checked it.
+    #[inline]
+    pub(super) fn from_record(factor: &PrecisionRecord) -> Self {
+        // Written out: a `map` over the array copies it first, by `memcpy`.
+        let [a, b, c, d, e, f] = factor;
+        let read = |word: &Word| f32::from_le_bytes(*word);
         Self {
-            lower: factor.map(f32::from_le_bytes),
+            lower: [read(a), read(b), read(c), read(d), read(e), read(f)],
         }
+    }
+
+    /// As [`Precision::from_factor`].
+    pub(super) fn is_valid(&self) -> bool {
+        let [xx, yx, yy, zx, zy, zz] = self.lower;
+        let positive = |d: f32| d >= f32::MIN_POSITIVE && d.is_finite();
+        let finite = yx.is_finite() && zx.is_finite() && zy.is_finite();
+        positive(xx) && positive(yy) && positive(zz) && finite
     }
 
     /// L row by row.

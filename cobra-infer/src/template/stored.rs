@@ -3,44 +3,49 @@
 //! Owns what scoring reads of a record, field by field and when it is needed: a [`Component`] holds
 //! all of them, and putting one together for each point costs more than the search for it.
 
-use super::wire::{self, Record};
+use super::wire::{self, Quad, Record};
 use super::{Component, Template};
-use crate::gp::{self, Hyperparameters, Terms, UnitDirection, Word};
+use crate::gp::{self, Hyperparameters, Terms, UnitDirection};
 use crate::kernel::Model;
 
-/// A record, and the words that it names a range of.
+/// A record, and the terms that it names a range of.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stored<'a> {
     record: &'a Record,
-    words: &'a [Word],
+    quads: &'a [Quad],
 }
 
 impl<'a> Template<'a> {
     /// The components as they lie in the file.
     pub(crate) fn stored(&self) -> impl Iterator<Item = Stored<'a>> + use<'a> {
-        let words = self.words;
+        let quads = self.quads;
         self.records
             .iter()
-            .map(move |record| Stored::new(record, words))
+            .map(move |record| Stored::new(record, quads))
     }
 
     /// Component `index` as it lies in the file.
     #[inline]
     pub(crate) fn stored_at(&self, index: usize) -> Option<Stored<'a>> {
-        Some(Stored::new(self.records.get(index)?, self.words))
+        Some(Stored::new(self.records.get(index)?, self.quads))
     }
 }
 
 impl<'a> Stored<'a> {
     #[inline]
-    pub(super) fn new(record: &'a Record, words: &'a [Word]) -> Self {
-        Self { record, words }
+    pub(super) fn new(record: &'a Record, quads: &'a [Quad]) -> Self {
+        Self { record, quads }
     }
 
     /// P − C_k.
     #[inline]
     pub(crate) fn offset(&self, point: [f32; 3]) -> [f32; 3] {
         wire::offset(self.record, point)
+    }
+
+    /// C_k.
+    pub(super) fn centre(&self) -> [f32; 3] {
+        wire::centre(self.record)
     }
 
     /// σ̂_k.
@@ -51,13 +56,12 @@ impl<'a> Stored<'a> {
 
     /// Of a record that was not validated, none.
     #[inline]
-    fn terms(&self) -> Terms<'a> {
-        let own = wire::term_words(self.record, self.words).unwrap_or(&[]);
-        Terms::from_words(own).unwrap_or(Terms::EMPTY)
+    pub(super) fn terms(&self) -> Terms<'a> {
+        Terms::from_quads(wire::term_quads(self.record, self.quads).unwrap_or(&[]))
     }
 
     #[inline]
-    fn hyperparameters(&self) -> Hyperparameters {
+    pub(super) fn hyperparameters(&self) -> Hyperparameters {
         let [_, _, _, _, length_scale, parameter, prior_mean, ..] = *self.record;
         let [length_scale, parameter, prior_mean] =
             [length_scale, parameter, prior_mean].map(f32::from_le_bytes);
@@ -77,7 +81,7 @@ impl<'a> Stored<'a> {
     /// All of it, with the precision that belongs to it.
     pub(super) fn component(&self, precision: Option<super::Precision>) -> Component<'a> {
         Component {
-            centre: wire::centre(self.record),
+            centre: self.centre(),
             sigma_hat: self.sigma_hat(),
             precision,
             hyperparameters: self.hyperparameters(),

@@ -1,14 +1,15 @@
 //! Everything that is checked before a template is used.
 
 use super::error::{Section, TemplateError};
+use super::number::{Number, Range};
 use super::wire::{
-    self, ComponentsSection, HEADER_LENGTH, Header, ObjectSection, PRECISION_LENGTH,
-    PrecisionRecord, PrecisionsSection, RECORD_LENGTH, REQUIRED, Record, SECTION_HEADER_LENGTH,
-    SectionHeader, TermsSection,
+    self, ComponentsSection, HEADER_LENGTH, Header, NAME_CAPACITY, ObjectSection, PRECISION_LENGTH,
+    PrecisionRecord, PrecisionsSection, Quad, RECORD_LENGTH, REQUIRED, Record,
+    SECTION_HEADER_LENGTH, SectionHeader, TermsSection,
 };
-use super::{Precision, Template};
-use crate::gp::Word;
-use crate::kernel::{Exponent, Kernel, Metric, Model};
+use super::{Precision, Stored, Template};
+use crate::gp::Hyperparameters;
+use crate::kernel::{Kernel, Metric, Model};
 use crate::math;
 use crate::tolerance;
 use core::f32::consts::PI;
@@ -32,7 +33,12 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
         });
     }
     let bodies = Bodies::find(payload)?;
-    let object: ObjectSection = decode(Section::Object, bodies.object)?;
+    let object: ObjectSection<'_> = decode(Section::Object, bodies.object)?;
+    if object.name.len() > NAME_CAPACITY {
+        return Err(TemplateError::MalformedSection {
+            section: Section::Object,
+        });
+    }
     let model: Model = decode(Section::Model, bodies.model)?;
     let components: ComponentsSection<&[u8]> = decode(Section::Components, bodies.components)?;
     let terms: TermsSection<&[u8]> = decode(Section::Terms, bodies.terms)?;
@@ -42,7 +48,8 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
     };
     check_model(model)?;
 
-    let template = Template {
+    // Checked inside the result: a template moved into it would lie on the stack twice.
+    let result = Ok(Template {
         name: object.name,
         unit: object.unit,
         centre: object.centre,
@@ -54,13 +61,15 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
             Some(section) => Some(factors(section)?),
             None => None,
         },
-        words: words(&terms)?,
-    };
-    check_object(&template)?;
-    check_ranges(&template)?;
-    check_components(&template)?;
-    check_precisions(&template)?;
-    Ok(template)
+        quads: quads(&terms)?,
+    });
+    if let Ok(template) = &result {
+        check_object(template)?;
+        check_ranges(template)?;
+        check_components(template)?;
+        check_precisions(template)?;
+    }
+    result
 }
 
 /// The bodies of the known sections.
@@ -182,17 +191,18 @@ fn factors<'a>(
     Ok(factors)
 }
 
-fn words<'a>(section: &TermsSection<&'a [u8]>) -> Result<&'a [Word], TemplateError> {
+fn quads<'a>(section: &TermsSection<&'a [u8]>) -> Result<&'a [Quad], TemplateError> {
     let wire::TermEncoding::Float32 = section.encoding;
-    let (words, odd) = section.values.as_chunks();
-    if !odd.is_empty() || !words.len().is_multiple_of(4) {
+    let (words, odd_bytes) = section.values.as_chunks::<4>();
+    let (quads, odd_words) = words.as_chunks();
+    if !odd_bytes.is_empty() || !odd_words.is_empty() {
         return Err(TemplateError::ArrayLength {
             section: Section::Terms,
             element: 16,
             found: section.values.len(),
         });
     }
-    Ok(words)
+    Ok(quads)
 }
 
 fn check_model(model: Model) -> Result<(), TemplateError> {
@@ -208,14 +218,19 @@ fn check_model(model: Model) -> Result<(), TemplateError> {
 
 fn check_object(template: &Template<'_>) -> Result<(), TemplateError> {
     let [x, y, z] = template.centre;
-    for (field, found) in [("centre x", x), ("centre y", y), ("centre z", z)] {
-        if !found.is_finite() {
-            return Err(TemplateError::ObjectNumber { field, found });
-        }
-    }
-    for (field, found) in [("radius", template.radius), ("diameter", template.diameter)] {
-        if !positive(found) {
-            return Err(TemplateError::ObjectNumber { field, found });
+    for (number, found) in [
+        (Number::CentreX, x),
+        (Number::CentreY, y),
+        (Number::CentreZ, z),
+        (Number::Radius, template.radius),
+        (Number::Diameter, template.diameter),
+    ] {
+        let holds = match number {
+            Number::Radius | Number::Diameter => normal(found),
+            _ => found.is_finite(),
+        };
+        if !holds {
+            return Err(TemplateError::ObjectNumber { number, found });
         }
     }
     Ok(())
@@ -228,7 +243,7 @@ fn check_ranges(template: &Template<'_>) -> Result<(), TemplateError> {
         if count == 0 {
             return Err(TemplateError::NoTerms { component });
         }
-        if first != next || wire::term_words(record, template.words).is_none() {
+        if first != next || wire::term_quads(record, template.quads).is_none() {
             return Err(TemplateError::TermRange { component });
         }
         next = first.saturating_add(count);
@@ -244,65 +259,49 @@ fn check_ranges(template: &Template<'_>) -> Result<(), TemplateError> {
 }
 
 fn check_components(template: &Template<'_>) -> Result<(), TemplateError> {
-    for (index, component) in template.components().enumerate() {
-        let number = |field, expected, found, holds: bool| {
-            if holds {
-                Ok(())
-            } else {
-                Err(TemplateError::ComponentNumber {
-                    component: index,
-                    field,
-                    expected,
-                    found,
-                })
-            }
-        };
-        for found in component.centre {
-            number("the centre", "finite", found, found.is_finite())?;
-        }
-        let sigma_hat = component.sigma_hat;
-        let normal = "positive, finite and no subnormal";
-        number("sigma-hat", normal, sigma_hat, positive(sigma_hat))?;
-        let h = &component.hyperparameters;
-        let l = h.length_scale;
-        let kernel = template.kernel();
-        match kernel.fixed_length_scale() {
-            Some(fixed) => number("the length scale", "1", l, l == fixed)?,
-            // The kernel sees only the square, which would hide a sign.
-            None => number(
-                "the length scale",
-                "positive, with a square that is finite and no subnormal",
-                l,
-                l > 0.0 && positive(l * l),
-            )?,
-        }
-        let name = match kernel.parameter_name() {
-            Some("exponent") => "the exponent",
-            Some("offset") => "the offset",
-            Some("period") => "the period",
-            _ => "the parameter",
-        };
-        let p = h.parameter;
-        match (kernel, kernel.fixed_parameter()) {
-            (_, Some(fixed)) => number(name, "what the kernel fixes", p, p == fixed)?,
-            (Kernel::RationalQuadratic(Exponent::Free), None) => number(
-                name,
-                "positive, and 2*exponent*(length scale)^2 finite and no subnormal",
-                p,
-                positive(p) && positive(2.0 * p * l * l),
-            )?,
-            (_, None) => number(name, normal, p, positive(p))?,
-        }
-        let m = h.prior_mean;
-        number("the prior mean", "finite", m, m.is_finite())?;
-        for (term, (direction, weight)) in component.terms.iter().enumerate() {
+    for (component, stored) in template.stored().enumerate() {
+        check_record(template.kernel(), component, stored)?;
+        for (term, (direction, weight)) in stored.terms().iter().enumerate() {
             if !weight.is_finite() {
-                return Err(TemplateError::Weight {
-                    component: index,
-                    term,
-                });
+                return Err(TemplateError::Weight { component, term });
             }
-            check_direction(template.metric(), index, term, direction)?;
+            check_direction(template.metric(), component, term, direction)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_record(kernel: Kernel, component: usize, stored: Stored<'_>) -> Result<(), TemplateError> {
+    let [x, y, z] = stored.centre();
+    let Hyperparameters {
+        length_scale: l,
+        parameter: p,
+        prior_mean,
+    } = stored.hyperparameters();
+    for (number, expected, found) in [
+        (Number::ReferencePoint, Range::Finite, x),
+        (Number::ReferencePoint, Range::Finite, y),
+        (Number::ReferencePoint, Range::Finite, z),
+        (Number::SigmaHat, Range::Normal, stored.sigma_hat()),
+        (Number::LengthScale, Range::of_length_scale(kernel), l),
+        (Number::parameter(kernel), Range::of_parameter(kernel), p),
+        (Number::PriorMean, Range::Finite, prior_mean),
+    ] {
+        let holds = match expected {
+            Range::Finite => found.is_finite(),
+            Range::Normal => normal(found),
+            Range::NormalSquare => found > 0.0 && normal(found * found),
+            Range::NormalProduct => normal(found) && normal(2.0 * found * l * l),
+            Range::One => found == 1.0,
+            Range::Fixed => kernel.fixed_parameter() == Some(found),
+        };
+        if !holds {
+            return Err(TemplateError::ComponentNumber {
+                component,
+                number,
+                expected,
+                found,
+            });
         }
     }
     Ok(())
@@ -350,7 +349,7 @@ fn check_precisions(template: &Template<'_>) -> Result<(), TemplateError> {
         return Err(TemplateError::PrecisionCount { expected, found });
     }
     for (component, factor) in factors.iter().enumerate() {
-        if Precision::from_factor(factor.map(f32::from_le_bytes)).is_none() {
+        if !Precision::from_record(factor).is_valid() {
             return Err(TemplateError::Precision { component });
         }
     }
@@ -358,6 +357,6 @@ fn check_precisions(template: &Template<'_>) -> Result<(), TemplateError> {
 }
 
 /// Finite, positive, and with a finite inverse.
-fn positive(value: f32) -> bool {
+fn normal(value: f32) -> bool {
     value.is_finite() && value >= f32::MIN_POSITIVE
 }

@@ -3,8 +3,7 @@
 use super::error::{Section, TemplateError};
 use crate::gp::Word;
 use crate::unit::Unit;
-use crc::{CRC_32_ISO_HDLC, Crc};
-use heapless::String;
+use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 use serde::{Deserialize, Serialize};
 
 /// The first four bytes of every template.
@@ -44,7 +43,8 @@ pub const PRECISION_LENGTH: usize = PRECISION_WORDS * 4;
 /// The factor L of a component's Q = LLᵀ, row by row.
 pub(super) type PrecisionRecord = [Word; PRECISION_WORDS];
 
-const CHECKSUM: Crc<u32, crc::Table<1>> = Crc::<u32, crc::Table<1>>::new(&CRC_32_ISO_HDLC);
+/// Without a table: a template is loaded once, and a kilobyte of flash is kept for good.
+const CHECKSUM: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
 
 pub(super) fn checksum(payload: &[u8]) -> u32 {
     CHECKSUM.checksum(payload)
@@ -175,8 +175,8 @@ pub(super) fn section_of(found: u16) -> Option<Section> {
 }
 
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct ObjectSection {
-    pub(super) name: String<NAME_CAPACITY>,
+pub(super) struct ObjectSection<'a> {
+    pub(super) name: &'a str,
     pub(super) unit: Unit,
     pub(super) centre: [f32; 3],
     pub(super) radius: f32,
@@ -215,12 +215,15 @@ pub(super) fn term_range(record: &Record) -> (u32, u32) {
     (u32::from_le_bytes(first), u32::from_le_bytes(count))
 }
 
-/// The words of a component's terms, if they lie inside the section.
-pub(super) fn term_words<'a>(record: &Record, words: &'a [Word]) -> Option<&'a [Word]> {
+/// Four words: as many bytes as one term has in the four arrays of its component together.
+pub(super) type Quad = [Word; 4];
+
+/// A component's terms, if they lie inside the section.
+#[inline]
+pub(super) fn term_quads<'a>(record: &Record, quads: &'a [Quad]) -> Option<&'a [Quad]> {
     let (first, count) = term_range(record);
-    let start = usize::try_from(first).ok()?.checked_mul(4)?;
-    let length = usize::try_from(count).ok()?.checked_mul(4)?;
-    words.get(start..start.checked_add(length)?)
+    let behind = quads.get(usize::try_from(first).ok()?..)?;
+    behind.get(..usize::try_from(count).ok()?)
 }
 
 /// C_k.

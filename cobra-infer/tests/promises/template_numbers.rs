@@ -25,16 +25,16 @@ fn refuses_number(bytes: &[u8], word: usize, value: f32, expected_field: &str) {
         let error = refused(&set_record_word(bytes, index, word, value.to_le_bytes()));
         let TemplateError::ComponentNumber {
             component,
-            field,
+            number,
             found,
             ..
         } = error
         else {
             panic!("{error:?}");
         };
-        assert_eq!((component, field), (index, expected_field));
+        assert_eq!((component, number.name()), (index, expected_field));
         assert_eq!(found.to_bits(), value.to_bits());
-        assert!(error.to_string().contains(field), "{error}");
+        assert!(error.to_string().contains(expected_field), "{error}");
     }
 }
 
@@ -52,7 +52,7 @@ fn a_bounding_sphere_or_diameter_that_is_none_is_refused() {
             });
             let error = refused(&damaged);
             assert!(
-                matches!(error, TemplateError::ObjectNumber { field, .. } if field == name),
+                matches!(error, TemplateError::ObjectNumber { number, .. } if number.name() == name),
                 "{name} {value}: {error}"
             );
         }

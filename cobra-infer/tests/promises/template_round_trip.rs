@@ -2,7 +2,7 @@
 //! less or different is refused.
 
 use crate::content::{Content, content};
-use cobra_infer::template::{HEADER_LENGTH, peek_len};
+use cobra_infer::template::{HEADER_LENGTH, Number, peek_len};
 use cobra_infer::{EncodeError, Template, TemplateError};
 use proptest::prelude::*;
 
@@ -140,7 +140,7 @@ fn what_a_controller_would_refuse_is_not_written() {
         content.try_encode(),
         Err(EncodeError::Invalid(TemplateError::ComponentNumber {
             component: 1,
-            field: "sigma-hat",
+            number: Number::SigmaHat,
             ..
         }))
     ));

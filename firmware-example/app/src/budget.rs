@@ -3,7 +3,7 @@
 //! Prints what was counted, one line a template; dividing it up is the host's work.
 
 use crate::Board;
-use crate::footprint::load_and_score;
+use crate::footprint::{COMPONENTS, load_and_score};
 use crate::stack;
 use cobra_agreement::vectors::Points;
 use cobra_infer::{Correspondence, Scorer, Settings, Template};
@@ -55,14 +55,12 @@ pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
         for (place, correspondence) in buffer.iter_mut().zip(stream()) {
             *place = correspondence;
         }
-        let Ok(mut scorer) = Scorer::<16>::new(&template, &camera, &pose, &settings) else {
+        let Ok(mut scorer) = Scorer::<COMPONENTS>::new(&template, &camera, &pose, &settings) else {
             return writeln!(out, "{name} does not fit");
         };
         board.feed_watchdog();
         let start = board.instructions();
-        for correspondence in &buffer {
-            scorer.push(correspondence);
-        }
+        push_all(&mut scorer, &buffer);
         let pushed = board.instructions().wrapping_sub(start);
         writeln!(
             out,
@@ -82,6 +80,14 @@ pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
         writeln!(out, "stack {} bytes={depth} scored={sound}", set.name)?;
     }
     Ok(())
+}
+
+/// By itself, as in a firmware that keeps its scorer: not mixed up with how it was prepared.
+#[inline(never)]
+fn push_all(scorer: &mut Scorer<'_, COMPONENTS>, correspondences: &[Correspondence]) {
+    for correspondence in correspondences {
+        scorer.push(correspondence);
+    }
 }
 
 /// In front of the camera and near the object, so that a point goes all the way.

@@ -1,7 +1,7 @@
 //! The least that a controller links: load a template, score one pose, decide.
 
 use cobra_infer::{
-    Camera, Correspondence, Decision, Pose, Report, ScoreError, Scorer, Settings, Template,
+    Camera, Correspondence, Decision, Pose, Report, ScoreError, Scorer, Settings, Sigma, Template,
     TemplateError,
 };
 
@@ -15,6 +15,15 @@ pub enum Refusal {
     Template(TemplateError),
     /// The template does not suit the scorer.
     Score(ScoreError),
+}
+
+/// How the examples score: σ as in the README's example, a tolerance of 2 mm.
+#[must_use]
+pub fn settings(template: &Template<'_>) -> Settings {
+    Settings {
+        sigma: Sigma::Fixed(1.93),
+        ..Settings::for_template(template, 2.0)
+    }
 }
 
 /// Loads the template, scores one pose on the correspondences, and reports.
@@ -31,10 +40,19 @@ pub fn load_and_score(
     correspondences: impl Iterator<Item = Correspondence>,
     mut each: impl FnMut(),
 ) -> Result<Report, Refusal> {
-    let template = Template::from_bytes(template).map_err(Refusal::Template)?;
-    let settings = Settings::for_template(&template, 2.0);
-    let mut scorer =
-        Scorer::<COMPONENTS>::new(&template, camera, pose, &settings).map_err(Refusal::Score)?;
+    // Both are used inside the results that they come in: moved out, they would lie on the stack
+    // twice.
+    let template = Template::from_bytes(template);
+    let template = match &template {
+        Ok(template) => template,
+        Err(error) => return Err(Refusal::Template(*error)),
+    };
+    let settings = settings(template);
+    let mut scorer = Scorer::<COMPONENTS>::new(template, camera, pose, &settings);
+    let scorer = match &mut scorer {
+        Ok(scorer) => scorer,
+        Err(error) => return Err(Refusal::Score(*error)),
+    };
     for correspondence in correspondences {
         scorer.push(&correspondence);
         each();
