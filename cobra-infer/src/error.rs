@@ -112,6 +112,8 @@ impl fmt::Display for PoseError {
 /// Why a scorer could not start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+// A tag of a word, so that errors are moved in words, not by `memcpy`.
+#[repr(u32)]
 pub enum ScoreError {
     /// The template has more components than the caller made room for.
     TooManyComponents {

@@ -6,9 +6,8 @@
 use super::encode_error::EncodeError;
 use super::error::Section;
 use super::wire::{
-    self, ComponentsSection, HEADER_LENGTH, Header, NAME_CAPACITY, ObjectSection, PRECISION_LENGTH,
-    PrecisionsSection, RECORD_LENGTH, REQUIRED, SECTION_HEADER_LENGTH, SectionHeader, TermEncoding,
-    TermsSection,
+    self, HEADER_LENGTH, Header, NAME_CAPACITY, ObjectSection, PRECISION_LENGTH, RECORD_LENGTH,
+    REQUIRED, RecordsSection, SECTION_HEADER_LENGTH, SectionHeader, TermEncoding, TermsSection,
 };
 use super::{Precision, validate};
 use crate::gp::{Hyperparameters, UnitDirection};
@@ -107,7 +106,7 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
         &mut used,
         Section::Object,
         &ObjectSection {
-            name: source.name,
+            name: source.name.as_bytes(),
             unit: source.unit,
             centre: source.centre,
             radius: source.radius,
@@ -119,7 +118,7 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
         out,
         &mut used,
         Section::Components,
-        &ComponentsSection {
+        &RecordsSection {
             stride: RECORD_LENGTH as u16,
             records: Records(source.components),
         },
@@ -138,9 +137,9 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
             out,
             &mut used,
             Section::Precisions,
-            &PrecisionsSection {
+            &RecordsSection {
                 stride: PRECISION_LENGTH as u16,
-                factors: Factors(source.components),
+                records: Factors(source.components),
             },
         )?;
     }

@@ -38,6 +38,8 @@ impl Section {
 /// Why bytes are not a template.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+// A tag of a word, so that errors are moved in words, not by `memcpy`.
+#[repr(u32)]
 pub enum TemplateError {
     /// The bytes end before the header does.
     HeaderTruncated {

@@ -36,7 +36,7 @@ use wire::{PrecisionRecord, Quad, Record};
 /// A validated template over borrowed bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Template<'a> {
-    name: &'a str,
+    name: &'a [u8],
     unit: Unit,
     centre: [f32; 3],
     radius: f32,
@@ -88,10 +88,14 @@ impl<'a> Template<'a> {
         result
     }
 
-    /// The object's name.
+    /// The object's name; of one that is no UTF-8, what there is of it before the first byte that is
+    /// none. Loading does not look at it: a controller that shows no name links no check.
     #[must_use]
     pub fn name(&self) -> &'a str {
         self.name
+            .utf8_chunks()
+            .next()
+            .map_or("", |chunk| chunk.valid())
     }
 
     /// The unit of every length in the template.

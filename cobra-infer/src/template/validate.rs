@@ -3,12 +3,11 @@
 use super::error::{Section, TemplateError};
 use super::number::{Number, Range};
 use super::wire::{
-    self, ComponentsSection, HEADER_LENGTH, Header, NAME_CAPACITY, ObjectSection, PRECISION_LENGTH,
-    PrecisionRecord, PrecisionsSection, Quad, RECORD_LENGTH, REQUIRED, Record,
+    self, HEADER_LENGTH, Header, NAME_CAPACITY, ObjectSection, Quad, REQUIRED, RecordsSection,
     SECTION_HEADER_LENGTH, SectionHeader, TermsSection,
 };
 use super::{Precision, Stored, Template};
-use crate::gp::Hyperparameters;
+use crate::gp::{Hyperparameters, Word};
 use crate::kernel::{Kernel, Metric, Model};
 use crate::math;
 use crate::tolerance;
@@ -40,7 +39,7 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
         });
     }
     let model: Model = decode(Section::Model, bodies.model)?;
-    let components: ComponentsSection<&[u8]> = decode(Section::Components, bodies.components)?;
+    let components: RecordsSection<&[u8]> = decode(Section::Components, bodies.components)?;
     let terms: TermsSection<&[u8]> = decode(Section::Terms, bodies.terms)?;
     let precisions = match bodies.precisions {
         Some(body) => Some(decode(Section::Precisions, body)?),
@@ -48,6 +47,10 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
     };
     check_model(model)?;
 
+    let components = records(Section::Components, &components)?;
+    if components.is_empty() {
+        return Err(TemplateError::NoComponents);
+    }
     // Checked inside the result: a template moved into it would lie on the stack twice.
     let result = Ok(Template {
         name: object.name,
@@ -56,9 +59,9 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
         radius: object.radius,
         diameter: object.diameter,
         model,
-        records: records(&components)?,
+        records: components,
         precisions: match &precisions {
-            Some(section) => Some(factors(section)?),
+            Some(section) => Some(records(Section::Precisions, section)?),
             None => None,
         },
         quads: quads(&terms)?,
@@ -148,47 +151,28 @@ fn decode<'a, T: Deserialize<'a>>(section: Section, body: &'a [u8]) -> Result<T,
     }
 }
 
-fn records<'a>(section: &ComponentsSection<&'a [u8]>) -> Result<&'a [Record], TemplateError> {
-    if usize::from(section.stride) != RECORD_LENGTH {
+/// The records of a section, of `WORDS` words each.
+fn records<'a, const WORDS: usize>(
+    section: Section,
+    found: &RecordsSection<&'a [u8]>,
+) -> Result<&'a [[Word; WORDS]], TemplateError> {
+    let length = WORDS * size_of::<Word>();
+    if usize::from(found.stride) != length {
         return Err(TemplateError::RecordLength {
-            expected: RECORD_LENGTH,
-            found: usize::from(section.stride),
+            expected: length,
+            found: usize::from(found.stride),
         });
     }
-    let (words, odd_bytes) = section.records.as_chunks();
+    let (words, odd_bytes) = found.records.as_chunks();
     let (records, odd_words) = words.as_chunks();
     if !odd_bytes.is_empty() || !odd_words.is_empty() {
         return Err(TemplateError::ArrayLength {
-            section: Section::Components,
-            element: RECORD_LENGTH,
-            found: section.records.len(),
+            section,
+            element: length,
+            found: found.records.len(),
         });
-    }
-    if records.is_empty() {
-        return Err(TemplateError::NoComponents);
     }
     Ok(records)
-}
-
-fn factors<'a>(
-    section: &PrecisionsSection<&'a [u8]>,
-) -> Result<&'a [PrecisionRecord], TemplateError> {
-    if usize::from(section.stride) != PRECISION_LENGTH {
-        return Err(TemplateError::RecordLength {
-            expected: PRECISION_LENGTH,
-            found: usize::from(section.stride),
-        });
-    }
-    let (words, odd_bytes) = section.factors.as_chunks();
-    let (factors, odd_words) = words.as_chunks();
-    if !odd_bytes.is_empty() || !odd_words.is_empty() {
-        return Err(TemplateError::ArrayLength {
-            section: Section::Precisions,
-            element: PRECISION_LENGTH,
-            found: section.factors.len(),
-        });
-    }
-    Ok(factors)
 }
 
 fn quads<'a>(section: &TermsSection<&'a [u8]>) -> Result<&'a [Quad], TemplateError> {
@@ -327,6 +311,8 @@ fn check_direction(
                 })
             }
         }
+        // Loading has refused it.
+        Metric::Angles if !metric.is_compiled_in() => Ok(()),
         Metric::Angles => {
             // The f32 nearest to π, which an arctangent in f32 may return, lies above π.
             let [phi, theta, rest] = direction;

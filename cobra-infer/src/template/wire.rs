@@ -176,24 +176,20 @@ pub(super) fn section_of(found: u16) -> Option<Section> {
 
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct ObjectSection<'a> {
-    pub(super) name: &'a str,
+    /// A postcard string, which is a byte array that ought to be UTF-8.
+    pub(super) name: &'a [u8],
     pub(super) unit: Unit,
     pub(super) centre: [f32; 3],
     pub(super) radius: f32,
     pub(super) diameter: f32,
 }
 
-/// `B` is `&[u8]` when reading and a sequence of the same bytes when writing.
+/// An array of records: the components' or the precisions'. `B` is `&[u8]` when reading and a
+/// sequence of the same bytes when writing.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct ComponentsSection<B> {
+pub(super) struct RecordsSection<B> {
     pub(super) stride: u16,
     pub(super) records: B,
-}
-
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct PrecisionsSection<B> {
-    pub(super) stride: u16,
-    pub(super) factors: B,
 }
 
 /// How directions and weights are stored.

@@ -87,35 +87,41 @@ pub struct Mailbox {
 /// # Safety
 /// `mailbox` must be valid for reads and writes and aligned.
 pub unsafe fn serve(template: &[u8], mailbox: *mut Mailbox) {
-    // SAFETY: the caller's promise. Volatile, because a device writes there.
-    let read = || unsafe { mailbox.read_volatile() };
-    let start = read();
-    let [fx, fy, cx, cy] = start.camera;
+    // SAFETY: the caller's promise. Volatile and field by field, because a device writes there.
+    let ([fx, fy, cx, cy], rotation, translation, count) = unsafe {
+        (
+            (&raw const (*mailbox).camera).read_volatile(),
+            (&raw const (*mailbox).rotation).read_volatile(),
+            (&raw const (*mailbox).translation).read_volatile(),
+            (&raw const (*mailbox).count).read_volatile(),
+        )
+    };
+    let stream = (0..count).map(|_| {
+        // SAFETY: as above.
+        let [u, v, x, y, z, weight] =
+            unsafe { (&raw const (*mailbox).correspondence).read_volatile() };
+        Correspondence {
+            pixel: [u, v].into(),
+            point: [x, y, z].into(),
+            weight,
+        }
+    });
     let mut answer = 3;
     if let (Ok(camera), Ok(pose)) = (
         Camera::new(fx, fy, cx, cy),
-        Pose::from_row_major(start.rotation, start.translation),
-    ) {
-        let stream = (0..start.count).map(|_| {
-            let [u, v, x, y, z, weight] = read().correspondence;
-            Correspondence {
-                pixel: [u, v].into(),
-                point: [x, y, z].into(),
-                weight,
-            }
-        });
-        if let Ok(report) = load_and_score(template, &camera, &pose, stream, || ()) {
-            // SAFETY: the caller's promise.
-            unsafe {
-                (&raw mut (*mailbox).confidence).write_volatile(report.confidence);
-                (&raw mut (*mailbox).threshold).write_volatile(report.threshold);
-            }
-            answer = match report.decision {
-                Decision::Accept => 0,
-                Decision::Reject(_) => 1,
-                Decision::Undecided(_) => 2,
-            };
+        Pose::from_row_major(rotation, translation),
+    ) && let Ok(report) = load_and_score(template, &camera, &pose, stream, || ())
+    {
+        // SAFETY: the caller's promise.
+        unsafe {
+            (&raw mut (*mailbox).confidence).write_volatile(report.confidence);
+            (&raw mut (*mailbox).threshold).write_volatile(report.threshold);
         }
+        answer = match report.decision {
+            Decision::Accept => 0,
+            Decision::Reject(_) => 1,
+            Decision::Undecided(_) => 2,
+        };
     }
     // SAFETY: the caller's promise.
     unsafe { (&raw mut (*mailbox).answer).write_volatile(answer) };
