@@ -93,11 +93,23 @@ need_node() {
     command -v node >/dev/null || { apt_install nodejs && command -v node >/dev/null; }
 }
 
-in_node() {
+# Sets `wasm_linker`.
+find_wasm_linker() {
+    wasm_linker=$(rustc --print sysroot)/lib/rustlib/$(host_target)/bin/rust-lld
+    [ -x "$wasm_linker" ] || wasm_linker=$(command -v wasm-ld)
+}
+
+# rustup's toolchain brings its linker, and lends it where `std` is built by Debian's, which has none.
+need_wasm_linker() {
+    find_wasm_linker || { apt_install lld && find_wasm_linker; }
+}
+
+in_node() (
     local target=$1
+    export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$wasm_linker
     cross "$target" std,panic_abort build --quiet --package cobra-agreement-wasm --release --locked &&
         node tests/agreement-wasm/run.mjs "$cross_dir/$target/release/cobra_agreement_wasm.wasm"
-}
+)
 
 in_webassembly() {
     local target=wasm32-unknown-unknown
@@ -105,6 +117,8 @@ in_webassembly() {
         skip "the same bits in WebAssembly: no node"
     elif ! need_cross "$target"; then
         skip "the same bits in WebAssembly: no \`std\` for $target"
+    elif ! need_wasm_linker; then
+        skip "the same bits in WebAssembly: no rust-lld and no wasm-ld"
     else
         same_bits "in WebAssembly" in_node "$target"
     fi
