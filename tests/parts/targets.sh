@@ -1,4 +1,4 @@
-# cobra-infer built for other targets and with other features.
+# cobra-infer with other features, and what it computes on other targets.
 
 features() {
     sed -n '/^\[features\]/,/^all-kernels/s/^\([a-z-]*\) = \[\]$/\1/p' cobra-infer/Cargo.toml
@@ -100,4 +100,5 @@ part_targets() {
     else
         fail "cobra-infer with log and defmt"
     fi
+    compare_bits
 }

@@ -1,7 +1,8 @@
 //! The agreement vectors score the recorded bits on this host, and would show it if not.
 
-use cobra_agreement::vectors::{CASES, Points, Unreadable, compare};
-use cobra_agreement::{Outcome, SETS, Set};
+use cobra_agreement::golden::GOLDEN;
+use cobra_agreement::vectors::{CASES, Points, Unreadable, compare, compare_telling};
+use cobra_agreement::{Outcome, SETS, Set, report};
 use cobra_infer::{Camera, Correspondence, Template, tolerance};
 
 #[test]
@@ -26,6 +27,40 @@ fn a_flipped_bit_anywhere_in_the_record_is_counted_once() {
         };
         assert_eq!(compare(&set).unwrap().mismatched_bits, 1);
     }
+}
+
+#[test]
+fn a_word_that_differs_is_told_with_its_case_and_its_place() {
+    let set = SETS[2];
+    let told = |word: usize| {
+        let mut expected = set.expected.to_vec();
+        expected[4 * word] ^= 1;
+        let expected = &*expected.leak();
+        let mut told = Vec::new();
+        compare_telling(&Set { expected, ..set }, |difference| {
+            told.push(difference.to_string());
+        })
+        .unwrap();
+        assert_eq!(told.len(), 1);
+        // The bits are those of the vectors: what is promised is all before them.
+        told[0].split_once(": expected ").unwrap().0.to_owned()
+    };
+    assert_eq!(told(17), "case 0, likelihood of correspondence 17");
+    assert_eq!(told(2000), "case 0, confidence");
+    assert_eq!(told(2006), "case 0, decision");
+    assert_eq!(told(2007), "case 1, likelihood of correspondence 0");
+}
+
+#[test]
+fn the_report_is_of_every_set_and_every_golden_template() {
+    let mut text = String::new();
+    assert_eq!(report::write(&mut text, || {}), Ok(true));
+    for set in SETS {
+        assert!(text.contains(&format!("agreement {} points=2000 ", set.name)));
+    }
+    let replayed = format!("golden vectors of {} templates", GOLDEN.len());
+    assert!(text.contains(&replayed), "{text}");
+    assert_eq!(text.lines().count(), SETS.len() + 2, "{text}");
 }
 
 #[test]

@@ -6,13 +6,14 @@
 //! under the new version's name to `make-golden`, and say so in the changelog. Never train these
 //! templates again, and never record their scores again, to make this pass.
 
-use cobra_agreement::golden::{GOLDEN, Mismatch, replay};
+use cobra_agreement::golden::{GOLDEN, Golden, Mismatch, replay};
 use cobra_infer::{Kernel, Metric, Template};
 
 #[test]
 fn recorded_templates_score_the_recorded_bits() {
-    for (template, vectors, cases) in GOLDEN {
-        assert_eq!(replay(template, vectors), Ok(cases));
+    for golden in GOLDEN {
+        let replayed = replay(golden.template, golden.vectors);
+        assert_eq!(replayed, Ok(golden.cases), "{}", golden.name);
     }
 }
 
@@ -20,7 +21,7 @@ fn recorded_templates_score_the_recorded_bits() {
 fn every_kernel_metric_assignment_likelihood_and_threshold_is_recorded() {
     let templates: Vec<Template<'_>> = GOLDEN
         .iter()
-        .map(|(template, ..)| Template::from_bytes(template).unwrap())
+        .map(|golden| Template::from_bytes(golden.template).unwrap())
         .collect();
     for kernel in Kernel::ALL {
         assert!(templates.iter().any(|template| template.kernel() == kernel));
@@ -29,9 +30,9 @@ fn every_kernel_metric_assignment_likelihood_and_threshold_is_recorded() {
         assert!(templates.iter().any(|template| template.metric() == metric));
     }
     assert!(templates.iter().any(Template::has_precisions));
-    for (bytes, ..) in GOLDEN {
-        let own = GOLDEN.iter().filter(|(other, ..)| *other == bytes);
-        let lines = own.flat_map(|(_, vectors, _)| vectors.lines());
+    for golden in GOLDEN {
+        let own = GOLDEN.iter().filter(|o| o.template == golden.template);
+        let lines = own.flat_map(|golden| golden.vectors.lines());
         let cases: Vec<&str> = lines.filter(|line| line.starts_with("case")).collect();
         for assignment in ["nearest", "maximum", "soft"] {
             for likelihood in ["peak", "density"] {
@@ -51,7 +52,7 @@ fn every_kernel_metric_assignment_likelihood_and_threshold_is_recorded() {
 
 #[test]
 fn the_records_hold_every_kind_of_decision_that_finite_weights_allow() {
-    let lines = GOLDEN.iter().flat_map(|(_, vectors, _)| vectors.lines());
+    let lines = GOLDEN.iter().flat_map(|golden| golden.vectors.lines());
     let reports: Vec<&str> = lines.filter(|line| line.starts_with("report")).collect();
     for decision in [
         "accept",
@@ -68,7 +69,9 @@ fn the_records_hold_every_kind_of_decision_that_finite_weights_allow() {
 
 #[test]
 fn every_changed_digit_of_a_record_is_noticed() {
-    let (template, vectors, _) = GOLDEN[0];
+    let Golden {
+        template, vectors, ..
+    } = GOLDEN[0];
     let start = vectors.find("\nlikelihoods").unwrap() + 1;
     let end = start + vectors[start..].find("\ncase").unwrap();
     for (place, _) in vectors[start..end].match_indices(|c: char| c.is_ascii_digit()) {
@@ -85,12 +88,12 @@ fn every_changed_digit_of_a_record_is_noticed() {
 
 #[test]
 fn a_golden_template_that_is_damaged_is_not_scored() {
-    for (template, vectors, _) in GOLDEN {
-        let mut changed = template.to_vec();
+    for golden in GOLDEN {
+        let mut changed = golden.template.to_vec();
         let last = changed.len() - 4;
         changed[last] ^= 1;
         assert_eq!(
-            replay(&changed, vectors),
+            replay(&changed, golden.vectors),
             Err(Mismatch::Unreadable { line: 0 })
         );
     }

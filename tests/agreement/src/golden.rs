@@ -17,25 +17,40 @@ use cobra_infer::{
     Assignment, Camera, Correspondence, Decision, Doubt, Likelihood, Pose, Rejection, Report,
     Scorer, Settings, Sigma, Template, Threshold,
 };
+use core::fmt;
 use core::str::SplitAsciiWhitespace;
 
 /// The most components that a golden template has.
 pub const COMPONENTS: usize = 4;
 
+/// A golden template with recorded scores.
+#[derive(Clone, Copy, Debug)]
+pub struct Golden {
+    /// The name of the vectors.
+    pub name: &'static str,
+    /// The template.
+    pub template: &'static [u8],
+    /// The record.
+    pub vectors: &'static str,
+    /// How many cases it holds.
+    pub cases: usize,
+}
+
 #[cfg(feature = "golden")]
 macro_rules! golden {
     ($template:literal, $vectors:literal, $cases:literal) => {
-        (
-            include_bytes!(concat!("../../golden/v1-", $template, ".cobra")).as_slice(),
-            include_str!(concat!("../../golden/v1-", $vectors, ".txt")),
-            $cases,
-        )
+        Golden {
+            name: $vectors,
+            template: include_bytes!(concat!("../../golden/v1-", $template, ".cobra")),
+            vectors: include_str!(concat!("../../golden/v1-", $vectors, ".txt")),
+            cases: $cases,
+        }
     };
 }
 
-/// The golden templates: template, vectors, and how many cases these hold.
+/// The golden templates of every kernel.
 #[cfg(feature = "golden")]
-pub const GOLDEN: [(&[u8], &str, usize); 17] = [
+pub const GOLDEN: [Golden; 17] = [
     golden!("exponent-one", "exponent-one", 32),
     golden!("exponent-half", "exponent-half", 32),
     golden!("exponent-free", "exponent-free", 32),
@@ -78,6 +93,24 @@ pub enum Mismatch {
         /// What was computed.
         found: u32,
     },
+}
+
+impl fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Unreadable { line: 0 } => f.write_str("the template does not load"),
+            Self::Unreadable { line } => write!(f, "line {line} does not read"),
+            Self::Differs {
+                line,
+                word,
+                expected,
+                found,
+            } => write!(
+                f,
+                "line {line}, word {word}: expected {expected:08x}, found {found:08x}"
+            ),
+        }
+    }
 }
 
 /// One `case` line.

@@ -11,6 +11,7 @@ use cobra_infer::{
     Assignment, Camera, Correspondence, Decision, Doubt, Likelihood, Pose, Rejection, Report,
     Scorer, Settings, Sigma, Template, Threshold,
 };
+use core::fmt;
 
 /// The most components that a template of the vectors has.
 pub const COMPONENTS: usize = 4;
@@ -114,21 +115,78 @@ pub enum Unreadable {
     Score(cobra_infer::ScoreError),
 }
 
+/// A word that is not what is recorded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// Which of [`CASES`].
+    pub case: usize,
+    /// Which of its words.
+    pub place: Place,
+    /// What is recorded; `None` where the record has ended.
+    pub expected: Option<u32>,
+    /// What was computed.
+    pub found: u32,
+}
+
+/// Which word of a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The likelihood of a correspondence, counted from 0 among all in the set.
+    Likelihood(usize),
+    /// One of [`REPORT_WORDS`].
+    Report(usize),
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "case {}, ", self.case)?;
+        match self.place {
+            Place::Likelihood(index) => write!(f, "likelihood of correspondence {index}: ")?,
+            Place::Report(index) => {
+                write!(f, "{}: ", REPORT_WORDS.get(index).unwrap_or(&"report"))?;
+            }
+        }
+        match self.expected {
+            Some(expected) => write!(f, "expected {expected:08x}, ")?,
+            None => f.write_str("expected nothing, ")?,
+        }
+        write!(f, "found {:08x}", self.found)
+    }
+}
+
 /// Scores the set under every case and compares each bit.
 ///
 /// # Errors
 /// [`Unreadable`].
 pub fn compare(set: &Set) -> Result<Outcome, Unreadable> {
-    let mut expected = set.expected.as_chunks().0.iter();
+    compare_telling(set, |_| {})
+}
+
+/// As [`compare`], and tells `tell` every word that differs.
+///
+/// # Errors
+/// [`Unreadable`].
+pub fn compare_telling(
+    set: &Set,
+    mut tell: impl FnMut(&Difference),
+) -> Result<Outcome, Unreadable> {
+    let mut recorded = set.expected.as_chunks().0.iter();
     let mut outcome = Outcome::default();
-    outcome.points = score(set.template, set.points, |found| {
+    outcome.points = each_word(set.template, set.points, |case, place, found| {
+        let expected = recorded.next().map(|word| u32::from_le_bytes(*word));
+        let bits = expected.map_or(u32::BITS, |expected| (expected ^ found).count_ones());
         outcome.words += 1;
-        outcome.mismatched_bits += match expected.next() {
-            Some(word) => (u32::from_le_bytes(*word) ^ found).count_ones(),
-            None => u32::BITS,
-        };
+        outcome.mismatched_bits += bits;
+        if bits != 0 {
+            tell(&Difference {
+                case,
+                place,
+                expected,
+                found,
+            });
+        }
     })?;
-    outcome.mismatched_bits += expected.map(|_| u32::BITS).sum::<u32>();
+    outcome.mismatched_bits += recorded.map(|_| u32::BITS).sum::<u32>();
     Ok(outcome)
 }
 
@@ -138,13 +196,32 @@ pub fn compare(set: &Set) -> Result<Outcome, Unreadable> {
 /// # Errors
 /// [`Unreadable`].
 pub fn score(template: &[u8], points: &[u8], mut each: impl FnMut(u32)) -> Result<u32, Unreadable> {
+    each_word(template, points, |_, _, word| each(word))
+}
+
+fn each_word(
+    template: &[u8],
+    points: &[u8],
+    mut each: impl FnMut(usize, Place, u32),
+) -> Result<u32, Unreadable> {
     let template = Template::from_bytes(template).map_err(Unreadable::Template)?;
     let points = Points::read(points).ok_or(Unreadable::Points)?;
-    for case in &CASES {
-        points.score(&template, case, &mut each)?;
+    for (index, case) in CASES.iter().enumerate() {
+        points.score(&template, case, |place, word| each(index, place, word))?;
     }
     Ok(points.correspondences.len() as u32)
 }
+
+/// What the numbers of [`report_words`] are.
+pub const REPORT_WORDS: [&str; 7] = [
+    "confidence",
+    "threshold",
+    "sum of weights",
+    "share of inliers",
+    "points",
+    "points behind the camera",
+    "decision",
+];
 
 /// Confidence, threshold, sum of weights and share of inliers as bits, the points, those behind the
 /// camera, and the number of the decision.
@@ -235,7 +312,7 @@ impl<'a> Points<'a> {
         &self,
         template: &Template<'_>,
         case: &Case,
-        each: &mut impl FnMut(u32),
+        mut each: impl FnMut(Place, u32),
     ) -> Result<(), Unreadable> {
         let camera = self.camera().ok_or(Unreadable::Points)?;
         let pose = self
@@ -243,13 +320,16 @@ impl<'a> Points<'a> {
             .ok_or(Unreadable::Points)?;
         let mut scorer = Scorer::<COMPONENTS>::new(template, &camera, &pose, &case.settings)
             .map_err(Unreadable::Score)?;
-        for correspondence in self.correspondences() {
+        for (index, correspondence) in self.correspondences().enumerate() {
             let sound = correspondence.is_finite() && correspondence.weight >= 0.0;
             if sound || !case.sound_only {
-                each(scorer.push(&correspondence).likelihood.to_bits());
+                let likelihood = scorer.push(&correspondence).likelihood;
+                each(Place::Likelihood(index), likelihood.to_bits());
             }
         }
-        report_words(&scorer.finish()).into_iter().for_each(each);
+        for (index, word) in report_words(&scorer.finish()).into_iter().enumerate() {
+            each(Place::Report(index), word);
+        }
         Ok(())
     }
 }
