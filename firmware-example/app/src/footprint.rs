@@ -8,6 +8,13 @@ use cobra_infer::{
 /// The most components that the examples make room for.
 pub const COMPONENTS: usize = 16;
 
+/// How the examples score: a tolerance of 2 mm. One function, so that programs which score the same
+/// stream in different ways agree on every bit.
+#[must_use]
+pub fn settings(template: &Template<'_>) -> Settings {
+    Settings::for_template(template, 2.0)
+}
+
 /// Why there is no report.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Refusal {
@@ -32,7 +39,7 @@ pub fn load_and_score(
     mut each: impl FnMut(),
 ) -> Result<Report, Refusal> {
     let template = Template::from_bytes(template).map_err(Refusal::Template)?;
-    let settings = Settings::for_template(&template, 2.0);
+    let settings = settings(&template);
     let mut scorer =
         Scorer::<COMPONENTS>::new(&template, camera, pose, &settings).map_err(Refusal::Score)?;
     for correspondence in correspondences {
