@@ -20,7 +20,7 @@ const TICKS_IN_1000_INSTRUCTIONS: u64 =
     64 * match BOARD.as_bytes() {
         b"microbit" => 16_000,
         b"lm3s6965evb" => 12_500,
-        b"mps2-an386" => 25_000,
+        b"mps2-an385" | b"mps2-an386" => 25_000,
         b"mps2-an505" => 20_000,
         b"mps3-an547" => 32_000,
         _ => panic!("a board without a frequency"),
