@@ -30,7 +30,7 @@ fn usual(target: &str) -> &'static str {
     if target.starts_with("thumbv6m") {
         "microbit"
     } else if target.starts_with("thumbv7m") {
-        "lm3s6965evb"
+        "mps2-an385"
     } else if target.starts_with("thumbv8m") {
         "mps2-an505"
     } else {

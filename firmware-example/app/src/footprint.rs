@@ -17,7 +17,8 @@ pub enum Refusal {
     Score(ScoreError),
 }
 
-/// How the examples score: σ as in the README's example, a tolerance of 2 mm.
+/// How the examples score: σ as in the README's example, a tolerance of 2 mm. One function, so that
+/// programs which score the same stream in different ways agree on every bit.
 #[must_use]
 pub fn settings(template: &Template<'_>) -> Settings {
     Settings {

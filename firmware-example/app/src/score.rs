@@ -1,16 +1,19 @@
 //! The example: a template in flash, a stream of correspondences, a watchdog, a report.
 
 use crate::Board;
-use crate::footprint::{COMPONENTS, Refusal, load_and_score};
+use crate::footprint::{COMPONENTS, Refusal, load_and_score, settings};
 use cobra_agreement::vectors::Points;
-use cobra_infer::{Correspondence, Report, Scorer, Settings, Template};
+use cobra_infer::{Correspondence, Report, Scorer, Template};
 use core::fmt::{self, Write};
 
 /// Linked into flash and read there: nothing of it is copied to RAM.
-static TEMPLATE: &[u8] = cobra_agreement::SETS[0].template;
+pub static TEMPLATE: &[u8] = cobra_agreement::SETS[0].template;
 
 /// What a camera and an estimator would deliver.
-static STREAM: &[u8] = cobra_agreement::SETS[0].points;
+pub static STREAM: &[u8] = cobra_agreement::SETS[0].points;
+
+/// Which poses of the stream are judged, and what they are called.
+pub const POSES: [(usize, &str); 2] = [(0, "right pose"), (1, "wrong pose")];
 
 /// Scores the right pose and a wrong one, then shows what is refused.
 ///
@@ -33,7 +36,7 @@ pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
     let Some((points, camera)) = Points::read(STREAM).and_then(|p| Some((p, p.camera()?))) else {
         return writeln!(out, "the stream does not read");
     };
-    for (index, title) in [(0, "right pose"), (1, "wrong pose")] {
+    for (index, title) in POSES {
         let Some(pose) = points.pose(index, false) else {
             return writeln!(out, "the {title} does not read");
         };
@@ -49,11 +52,16 @@ pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
 }
 
 /// What an estimator should not deliver, but the vectors hold, would make every pose undecided.
-fn is_sound(correspondence: &Correspondence) -> bool {
+#[must_use]
+pub fn is_sound(correspondence: &Correspondence) -> bool {
     correspondence.is_finite() && correspondence.weight >= 0.0
 }
 
-fn print(report: &Report, title: &str, out: &mut impl Write) -> fmt::Result {
+/// One line on a pose, with the bits of what was computed: programs are compared by it.
+///
+/// # Errors
+/// Those of `out`.
+pub fn print(report: &Report, title: &str, out: &mut impl Write) -> fmt::Result {
     writeln!(
         out,
         "{title}: {} points, confidence {:.3} ({:08x}), threshold {:.3} ({:08x}): {}, {}",
@@ -93,7 +101,7 @@ fn refusals(out: &mut impl Write) -> fmt::Result {
     else {
         return writeln!(out, "the template or the stream does not read");
     };
-    let settings = Settings::for_template(&template, 2.0);
+    let settings = settings(&template);
     if let (Some(camera), Some(pose)) = (points.camera(), points.pose(0, false)) {
         match Scorer::<2>::new(&template, &camera, &pose, &settings) {
             Ok(_) => writeln!(out, "template too large for the scorer: NOT REFUSED")?,

@@ -6,9 +6,8 @@ use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
 
 /// The board that the build chose, its SysTick running.
-#[derive(Debug)]
 pub struct CortexM {
-    last: u32,
+    ticks: SYST,
     total: u64,
 }
 
@@ -20,7 +19,7 @@ const TICKS_IN_1000_INSTRUCTIONS: u64 =
     64 * match BOARD.as_bytes() {
         b"microbit" => 16_000,
         b"lm3s6965evb" => 12_500,
-        b"mps2-an386" => 25_000,
+        b"mps2-an385" | b"mps2-an386" => 25_000,
         b"mps2-an505" => 20_000,
         b"mps3-an547" => 32_000,
         _ => panic!("a board without a frequency"),
@@ -38,7 +37,7 @@ impl CortexM {
         ticks.set_reload(WRAP - 1);
         ticks.clear_current();
         ticks.enable_counter();
-        Some(Self { last: 0, total: 0 })
+        Some(Self { ticks, total: 0 })
     }
 }
 
@@ -52,10 +51,15 @@ impl Board for CortexM {
     }
 
     fn instructions(&mut self) -> u64 {
+        // Set where the counter has reached 0 since it was last cleared. Read between two looks at the
+        // counter, which grows from one to the next only where it wraps around there.
+        let before = SYST::get_current();
+        let wrapped = self.ticks.has_wrapped();
         let now = SYST::get_current();
-        // Right as long as it is asked more often than the counter wraps around.
-        self.total += u64::from(self.last.wrapping_sub(now) % WRAP);
-        self.last = now;
+        let wraps = u32::from(wrapped || now > before);
+        self.total += u64::from(WRAP - 1 - now + wraps * WRAP);
+        // From the top again, so that the next call may come as late as twice the counter's range.
+        self.ticks.clear_current();
         self.total * 1_000 / TICKS_IN_1000_INSTRUCTIONS
     }
 }
