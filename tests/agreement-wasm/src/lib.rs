@@ -8,7 +8,7 @@
     reason = "unmangled names: no other crate is linked that has any"
 )]
 
-use cobra_agreement::report;
+use cobra_agreement::{SETS, report};
 use std::sync::OnceLock;
 
 static COMPARED: OnceLock<(String, bool)> = OnceLock::new();
@@ -16,7 +16,7 @@ static COMPARED: OnceLock<(String, bool)> = OnceLock::new();
 fn compared() -> &'static (String, bool) {
     COMPARED.get_or_init(|| {
         let mut text = String::new();
-        let agrees = report::write(&mut text, || {});
+        let agrees = report::write(&mut text, &SETS, || {});
         (text, agrees == Ok(true))
     })
 }

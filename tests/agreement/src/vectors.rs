@@ -44,6 +44,19 @@ macro_rules! set {
 /// under exponent 1; and a template of one component and 20 terms.
 pub const SETS: [Set; 3] = [set!("k-means"), set!("em"), set!("tiny")];
 
+/// The set of that name, or all of them by the name `all`; none by any other. For boards whose flash
+/// does not hold all at once: as a constant, it links only what it names.
+#[must_use]
+pub const fn sets_named(name: &str) -> &'static [Set] {
+    match name.as_bytes() {
+        b"all" => &SETS,
+        b"k-means" => &[SETS[0]],
+        b"em" => &[SETS[1]],
+        b"tiny" => &[SETS[2]],
+        _ => &[],
+    }
+}
+
 /// One way to score the correspondences of a set.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
