@@ -117,7 +117,7 @@ runs_on_the_executor() {
                 --package cobra-embassy
     ) || return
     firmware_program thumbv7em-none-eabihf mps2-an386 score || return
-    emulate qemu-system-arm mps2-an386 "${firmware%score}cobra-embassy" >"$log" || return
+    emulate qemu-system-arm mps2-an386 "${firmware%score}embassy" >"$log" || return
     diff <(grep " pose: " "$log") <(grep " pose: " "$firmware_folder/host.score")
 }
 
@@ -175,7 +175,7 @@ part_firmware() {
         rustc=/usr/bin/rustc
     fi
     # shellcheck disable=SC2086 # empty must vanish
-    firmware_check "README's table of budgets" cargo run --quiet --locked --package cobra-tests \
-        --example firmware-budget -- "$firmware_folder" "$("$rustc" --version | cut -d' ' -f1,2)" \
+    firmware_check "README's table of budgets" cargo run --quiet --locked --package cobra-firmware-budget \
+        -- "$firmware_folder" "$("$rustc" --version | cut -d' ' -f1,2)" \
         ${write_tables:+--write}
 }

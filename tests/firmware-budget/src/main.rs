@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .lines()
         .map(|line| row(folder, line).map_err(|error| format!("{line}: {error}").into()))
         .collect::<Result<Vec<Row>, Box<dyn Error>>>()?;
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     fs::create_dir_all(root.join("target"))?;
     let json: Vec<Value> = rows.iter().map(document).collect();
     let json = serde_json::to_string_pretty(&json)? + "\n";
