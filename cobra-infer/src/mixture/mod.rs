@@ -17,6 +17,7 @@ use crate::template::{Stored, Template};
 use crate::tolerance;
 use heapless::Vec;
 use nalgebra::Point3;
+use soft::Blend;
 
 /// Which likelihood a residual e under standard deviation σ has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -251,13 +252,65 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
 
     /// The component that speaks for `point`, and what it says; `None` when none can: the point
     /// lies on its reference point or infinitely far away.
+    ///
+    /// The most probable component has the smallest e²/2σ², plus ln σ for the density, so that one
+    /// exponential a point is enough unless all are mixed.
+    // One loop for all assignments: with one for each, none would contain the Gaussian process, and
+    // the calls and what they return cost a controller a tenth of a point.
     #[must_use]
     pub fn evaluate(&self, point: &Point3<f32>) -> Option<Match> {
-        match self.assignment {
-            Assignment::Nearest => self.evaluate_nearest(point),
-            Assignment::Maximum => self.evaluate_maximum(point),
-            Assignment::Soft => self.evaluate_soft(point),
+        let at = [point.x, point.y, point.z];
+        let mut blend = None;
+        let candidates = match self.assignment {
+            Assignment::Nearest => {
+                let index = self.template.nearest(at)?;
+                index..index.saturating_add(1)
+            }
+            Assignment::Maximum => 0..self.prepared.len(),
+            Assignment::Soft => {
+                blend = Some(Blend::over(self.template, at)?);
+                0..self.prepared.len()
+            }
+        };
+        let mut best: Option<(f32, usize, Prediction)> = None;
+        for index in candidates {
+            let component = self.template.stored_at(index)?;
+            let prepared = self.prepared.get(index)?;
+            let mut excess = 0.0;
+            if let Some(blend) = &mut blend {
+                excess = blend.excess(self.template.exponent(index, at));
+                if !blend.weigh(excess, prepared) {
+                    continue;
+                }
+            }
+            let Some(prediction) = self.predict(component, prepared, at) else {
+                continue;
+            };
+            if let Some(blend) = &mut blend {
+                blend.add(self.likelihood, excess, &prediction, prepared);
+            }
+            let cost = excess + self.cost(&prediction, prepared);
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                best = Some((cost, index, prediction));
+            }
         }
+        let (_, component, prediction) = best?;
+        let prepared = self.prepared.get(component)?;
+        let (likelihood, threshold) = match blend {
+            Some(blend) => blend.finish(self.likelihood),
+            None => {
+                let peak = math::exp(-prediction.half_square);
+                let likelihood = self.likelihood.of_peak(peak, prepared.inverse_sigma);
+                (likelihood, prepared.threshold)
+            }
+        };
+        Some(Match {
+            component,
+            distance: prediction.distance,
+            predicted: prediction.predicted,
+            likelihood,
+            threshold,
+        })
     }
 
     /// What a match contributes to the threshold; without a match, the largest of all components,
@@ -265,32 +318,6 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
     #[must_use]
     pub fn threshold(&self, found: Option<&Match>) -> f32 {
         found.map_or(self.largest_threshold, |found| found.threshold)
-    }
-
-    fn evaluate_nearest(&self, point: &Point3<f32>) -> Option<Match> {
-        let index = self.template.nearest([point.x, point.y, point.z])?;
-        let component = self.template.stored_at(index)?;
-        let prepared = self.prepared.get(index)?;
-        let prediction = self.predict(component, prepared, point)?;
-        Some(self.matched(index, &prediction, prepared))
-    }
-
-    /// The most probable component has the smallest e²/2σ², plus ln σ for the density, so that one
-    /// exponential a point is enough.
-    fn evaluate_maximum(&self, point: &Point3<f32>) -> Option<Match> {
-        let mut best: Option<(f32, usize, Prediction)> = None;
-        for (index, (component, prepared)) in self.template.stored().zip(&self.prepared).enumerate()
-        {
-            let Some(prediction) = self.predict(component, prepared, point) else {
-                continue;
-            };
-            let cost = self.cost(&prediction, prepared);
-            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-                best = Some((cost, index, prediction));
-            }
-        }
-        let (_, index, prediction) = best?;
-        Some(self.matched(index, &prediction, self.prepared.get(index)?))
     }
 
     /// e²/2σ², plus ln σ for the density: the less, the more probable.
@@ -301,13 +328,14 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
         }
     }
 
+    #[inline]
     fn predict(
         &self,
         component: Stored<'t>,
         prepared: &Prepared,
-        point: &Point3<f32>,
+        point: [f32; 3],
     ) -> Option<Prediction> {
-        let offset = component.offset([point.x, point.y, point.z]);
+        let offset = component.offset(point);
         let (direction, distance) = gp::direction_and_length(offset, self.smallest_distance)?;
         let predicted = component.posterior_mean(self.template.model(), &direction);
         if !predicted.is_finite() {
@@ -319,18 +347,6 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
             predicted,
             half_square: 0.5 * scaled * scaled,
         })
-    }
-
-    fn matched(&self, component: usize, prediction: &Prediction, prepared: &Prepared) -> Match {
-        Match {
-            component,
-            distance: prediction.distance,
-            predicted: prediction.predicted,
-            likelihood: self
-                .likelihood
-                .of_peak(math::exp(-prediction.half_square), prepared.inverse_sigma),
-            threshold: prepared.threshold,
-        }
     }
 }
 

@@ -6,60 +6,73 @@
 //! by rising k over the components whose exp(−xₖ) is not 0, the others not being asked. Far from the
 //! object, where exponents exceed some 10⁶, `f32` rounds their differences and with them the weights.
 
-use super::{Likelihood, Match, Mixture, Prediction};
+use super::{Likelihood, Prediction, Prepared};
 use crate::math;
-use nalgebra::Point3;
+use crate::template::Template;
 
-impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
-    /// The mixture; `None` where no component is finitely near or none of those with a weight has
-    /// an answer.
-    pub(super) fn evaluate_soft(&self, point: &Point3<f32>) -> Option<Match> {
-        let at = [point.x, point.y, point.z];
-        let least = self
-            .template
-            .exponents(at)
-            .fold(
-                f32::INFINITY,
-                |least, next| if next < least { next } else { least },
-            );
-        if !least.is_finite() {
-            return None;
-        }
-        let (mut weights, mut likelihoods, mut thresholds) = (0.0, 0.0, 0.0);
-        let mut best: Option<(f32, usize, Prediction)> = None;
-        let components = self.template.stored().zip(&self.prepared);
-        for (index, ((component, prepared), exponent)) in
-            components.zip(self.template.exponents(at)).enumerate()
-        {
-            let excess = exponent - least;
-            let weight = math::exp(-excess);
-            if weight.is_nan() || weight <= 0.0 {
-                continue;
-            }
-            weights += weight;
-            thresholds += weight * prepared.threshold;
-            let Some(prediction) = self.predict(component, prepared, point) else {
-                continue;
-            };
-            let peak = math::exp(-(excess + prediction.half_square));
-            likelihoods += self.likelihood.of_peak(peak, prepared.inverse_sigma);
-            let cost = excess + self.cost(&prediction, prepared);
-            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-                best = Some((cost, index, prediction));
+/// The sums over the components, and the least exponent.
+#[derive(Clone, Copy)]
+pub(super) struct Blend {
+    least: f32,
+    weights: f32,
+    likelihoods: f32,
+    thresholds: f32,
+}
+
+impl Blend {
+    /// Of the components around a point; `None` where none is finitely near.
+    pub(super) fn over(template: &Template<'_>, at: [f32; 3]) -> Option<Self> {
+        let mut least = f32::INFINITY;
+        for index in 0..template.component_count() {
+            let exponent = template.exponent(index, at);
+            if exponent < least {
+                least = exponent;
             }
         }
-        let (_, component, prediction) = best?;
-        let likelihood = likelihoods / weights;
-        Some(Match {
-            component,
-            distance: prediction.distance,
-            predicted: prediction.predicted,
-            likelihood: match self.likelihood {
-                // Two rounded sums may differ by an ulp where every likelihood is 1.
-                Likelihood::Peak if likelihood > 1.0 => 1.0,
-                _ => likelihood,
-            },
-            threshold: thresholds / weights,
+        least.is_finite().then_some(Self {
+            least,
+            weights: 0.0,
+            likelihoods: 0.0,
+            thresholds: 0.0,
         })
+    }
+
+    /// xₖ = a_k − min a.
+    pub(super) fn excess(&self, exponent: f32) -> f32 {
+        exponent - self.least
+    }
+
+    /// Takes exp(−xₖ) into the sums; whether the component has a weight, and so is to be asked.
+    pub(super) fn weigh(&mut self, excess: f32, prepared: &Prepared) -> bool {
+        let weight = math::exp(-excess);
+        if weight.is_nan() || weight <= 0.0 {
+            return false;
+        }
+        self.weights += weight;
+        self.thresholds += weight * prepared.threshold;
+        true
+    }
+
+    /// Takes the component's answer into the sum.
+    pub(super) fn add(
+        &mut self,
+        likelihood: Likelihood,
+        excess: f32,
+        prediction: &Prediction,
+        prepared: &Prepared,
+    ) {
+        let peak = math::exp(-(excess + prediction.half_square));
+        self.likelihoods += likelihood.of_peak(peak, prepared.inverse_sigma);
+    }
+
+    /// The likelihood and the contribution to the threshold.
+    pub(super) fn finish(&self, likelihood: Likelihood) -> (f32, f32) {
+        let mixed = self.likelihoods / self.weights;
+        let mixed = match likelihood {
+            // Two rounded sums may differ by an ulp where every likelihood is 1.
+            Likelihood::Peak if mixed > 1.0 => 1.0,
+            _ => mixed,
+        };
+        (mixed, self.thresholds / self.weights)
     }
 }

@@ -3,7 +3,7 @@
 //! Owns (P − C_k)ᵀQ_k(P − C_k) over the records, of which only the reference point is read: the
 //! search for the nearest component is most of what a point costs besides its Gaussian process.
 
-use super::wire::{self, PrecisionRecord};
+use super::wire;
 use super::{Precision, Template};
 use crate::math;
 
@@ -23,21 +23,22 @@ impl Template<'_> {
         }
     }
 
-    /// The exponents of Eq. 8, (P − C_k)ᵀQ_k(P − C_k); without precisions ‖(P − C_k)/radius‖², each
-    /// coordinate multiplied by 1/radius first.
-    pub(crate) fn exponents(&self, point: [f32; 3]) -> impl Iterator<Item = f32> {
-        let inverse_radius = 1.0 / self.radius;
-        let mut factors = self.precisions.map(<[PrecisionRecord]>::iter);
-        self.records.iter().map(move |record| {
-            let offset = wire::offset(record, point);
-            match factors.as_mut().and_then(Iterator::next) {
-                Some(factor) => Precision::from_record(factor).form(offset),
-                None => {
-                    let scaled = offset.map(|coordinate| coordinate * inverse_radius);
-                    math::dot(scaled, scaled)
-                }
+    /// The exponent of Eq. 8 of component `index`, (P − C_k)ᵀQ_k(P − C_k); without precisions
+    /// ‖(P − C_k)/radius‖², each coordinate multiplied by 1/radius first. Infinite where there is no
+    /// such component.
+    pub(crate) fn exponent(&self, index: usize, point: [f32; 3]) -> f32 {
+        let Some(record) = self.records.get(index) else {
+            return f32::INFINITY;
+        };
+        let offset = wire::offset(record, point);
+        match self.precisions.and_then(|factors| factors.get(index)) {
+            Some(factor) => Precision::from_record(factor).form(offset),
+            None => {
+                let inverse_radius = 1.0 / self.radius;
+                let scaled = offset.map(|coordinate| coordinate * inverse_radius);
+                math::dot(scaled, scaled)
             }
-        })
+        }
     }
 }
 
