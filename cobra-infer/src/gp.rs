@@ -104,6 +104,7 @@ pub struct Hyperparameters {
 /// The order of summation is the module's. NaN where this build does not contain the model's kernel
 /// or metric, which [`crate::Template::from_bytes`] refuses.
 #[must_use]
+#[inline(never)]
 pub fn posterior_mean(
     model: Model,
     hyperparameters: &Hyperparameters,

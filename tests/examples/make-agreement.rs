@@ -6,6 +6,7 @@
 
 use cobra_agreement::vectors;
 use cobra_infer::{Exponent, Kernel, Model, Template, UnitDirection, tolerance};
+use cobra_tests::points_file::points_file;
 use cobra_train::demo::mechanical_part;
 use cobra_train::progress::Silent;
 use cobra_train::train::{ReferencePoints, TrainOptions, train};
@@ -73,10 +74,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             Ok(train(&mechanical_part().into(), &options, &Silent)?.bytes)
         })?;
         let points = write_new("points", &|| {
-            Ok(file_of_points(&correspondences(
-                &Template::from_bytes(&template)?,
-                index as u64,
-            )))
+            let template = Template::from_bytes(&template)?;
+            let rows = correspondences(&template, index as u64);
+            Ok(points_file(&CAMERA, &POSES, &rows))
         })?;
         write_new("expected", &|| {
             let mut bytes = Vec::new();
@@ -88,23 +88,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         })?;
     }
     Ok(())
-}
-
-fn file_of_points(correspondences: &[[f32; 6]]) -> Vec<u8> {
-    let count = |n: usize| (n as u32).to_le_bytes().to_vec();
-    let numbers = |all: &[f32]| {
-        all.iter()
-            .flat_map(|x| x.to_le_bytes())
-            .collect::<Vec<u8>>()
-    };
-    [
-        numbers(&CAMERA),
-        count(POSES.len()),
-        numbers(POSES.as_flattened()),
-        count(correspondences.len()),
-        numbers(correspondences.as_flattened()),
-    ]
-    .concat()
 }
 
 /// Points on and off the predicted surface, mixed with everything awkward.

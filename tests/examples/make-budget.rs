@@ -1,4 +1,4 @@
-//! Makes the templates of `tests/golden/budget`, on which instructions are counted.
+//! Makes the templates and the points of `tests/golden/budget`, on which instructions are counted.
 //!
 //! `cargo run -p cobra-tests --example make-budget`. They are no objects: every component is much
 //! the same sphere of 40 mm around a point near the origin, so that templates differ in one thing
@@ -7,6 +7,7 @@
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
 use cobra_infer::template::{ComponentSource, Precision, TemplateSource, encode, encoded_len};
 use cobra_infer::{Exponent, Kernel, Model, Unit};
+use cobra_tests::points_file::points_file;
 use nalgebra::Vector3;
 use std::error::Error;
 use std::path::Path;
@@ -61,7 +62,32 @@ fn main() -> Result<(), Box<dyn Error>> {
         let length = encode(&source, &mut bytes)?;
         std::fs::write(folder.join(format!("{name}.cobra")), &bytes[..length])?;
     }
+    let points = points_file(&CAMERA, &[POSE], &on_the_sphere());
+    std::fs::write(folder.join("sphere.points"), points)?;
     Ok(())
+}
+
+const CAMERA: [f32; 9] = [900.0, 0.0, 640.0, 0.0, 900.0, 480.0, 0.0, 0.0, 1.0];
+
+const POSE: [f32; 12] = [0.6, -0.8, 0., 0.8, 0.6, 0., 0., 0., 1., 8., -16., 512.];
+
+/// How many points.
+const POINTS: usize = 64;
+
+/// What is seen of the sphere: points that an estimator could deliver, so that each goes all the way.
+fn on_the_sphere() -> Vec<[f32; 6]> {
+    let [fx, _, cx, _, fy, cy, ..] = CAMERA;
+    let [r0, r1, r2, r3, r4, r5, r6, r7, r8, tx, ty, tz] = POSE;
+    (0..POINTS)
+        .map(|index| {
+            let [x, y, z] = (40.0 * on_spiral(index, POINTS).into_inner()).into();
+            let depth = r6 * x + r7 * y + r8 * z + tz;
+            let a = (r0 * x + r1 * y + r2 * z + tx) / depth;
+            let b = (r3 * x + r4 * y + r5 * z + ty) / depth;
+            let off = 0.5 * (index % 5) as f32 - 1.0;
+            [fx * a + cx + off, fy * b + cy - off, x, y, z, 0.75]
+        })
+        .collect()
 }
 
 /// Direction `index` of `count` on a spiral from pole to pole.

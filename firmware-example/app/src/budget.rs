@@ -3,10 +3,10 @@
 //! Prints what was counted, one line a template; dividing it up is the host's work.
 
 use crate::Board;
-use crate::footprint::{COMPONENTS, load_and_score};
+use crate::footprint::{Refusal, load_and_score};
 use crate::stack;
 use cobra_agreement::vectors::Points;
-use cobra_infer::{Correspondence, Scorer, Settings, Template};
+use cobra_infer::{Camera, Pose, Report};
 use core::fmt::{self, Write};
 use core::hint::black_box;
 
@@ -38,50 +38,50 @@ static REAL: [(&str, &[u8]); 2] = [
     ("em", cobra_agreement::SETS[1].template),
 ];
 
-/// Which of the vectors' correspondences are scored: the first that an estimator could deliver.
-const POINTS: usize = 64;
+/// Points near the sphere that these templates are of.
+static POINTS: &[u8] = include_bytes!("../../../tests/golden/budget/sphere.points");
 
 /// Measures and prints.
 ///
 /// # Errors
 /// Those of `out`.
 pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
-    let Some(points) = Points::read(black_box(cobra_agreement::SETS[0].points)) else {
-        return writeln!(out, "the stream does not read");
+    let Some(points) = Points::read(black_box(POINTS)) else {
+        return writeln!(out, "the points do not read");
     };
     let (Some(camera), Some(pose)) = (points.camera(), points.pose(0, false)) else {
         return writeln!(out, "camera or pose does not read");
     };
-    let stream = || points.correspondences().filter(is_ordinary).take(POINTS);
-    for (name, bytes) in TEMPLATES {
-        let Ok(template) = Template::from_bytes(black_box(bytes)) else {
-            return writeln!(out, "{name} does not load");
-        };
-        let settings = Settings::for_template(&template, 2.0);
-        let mut buffer = [Correspondence::new([0.0; 2].into(), [0.0; 3].into()); POINTS];
-        for (place, correspondence) in buffer.iter_mut().zip(stream()) {
-            *place = correspondence;
-        }
-        let Ok(mut scorer) = Scorer::<COMPONENTS>::new(&template, &camera, &pose, &settings) else {
-            return writeln!(out, "{name} does not fit");
-        };
+    for (name, template) in TEMPLATES {
         board.feed_watchdog();
-        let start = board.instructions();
-        push_all(&mut scorer, &buffer);
-        let pushed = board.instructions().wrapping_sub(start);
+        let mut counted = |count: usize| {
+            let start = board.instructions();
+            let report = score(
+                black_box(template),
+                &camera,
+                &pose,
+                &points,
+                black_box(count),
+            );
+            let instructions = board.instructions().wrapping_sub(start);
+            report.map(|report| (report, instructions))
+        };
+        let all = points.correspondences().len();
+        let (Ok((_, without)), Ok((report, with))) = (counted(0), counted(all)) else {
+            return writeln!(out, "{name} cannot be scored");
+        };
         writeln!(
             out,
-            "cost {name} points={POINTS} components={} evaluations={} instructions={pushed} \
-             inliers={:.2}",
-            template.component_count(),
-            template.cost().nearest,
-            scorer.finish().inlier_share
+            "cost {name} points={} instructions={} inliers={:.2}",
+            report.points,
+            with.wrapping_sub(without),
+            report.inlier_share
         )?;
     }
     for (name, template) in REAL {
         let mut sound = false;
         let depth = stack::depth_of(|| {
-            let report = load_and_score(template, &camera, &pose, stream(), || ());
+            let report = score(template, &camera, &pose, &points, usize::MAX);
             sound = report.is_ok();
         });
         writeln!(out, "stack {name} bytes={depth} scored={sound}")?;
@@ -89,25 +89,15 @@ pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
     Ok(())
 }
 
-/// By itself, as in a firmware that keeps its scorer: not mixed up with how it was prepared.
+/// What is measured, in one place, as it is in one place in a firmware: the first `count` points.
 #[inline(never)]
-fn push_all(scorer: &mut Scorer<'_, COMPONENTS>, correspondences: &[Correspondence]) {
-    for correspondence in correspondences {
-        scorer.push(correspondence);
-    }
-}
-
-/// In front of the camera and near the object, so that a point goes all the way.
-fn is_ordinary(correspondence: &Correspondence) -> bool {
-    let limit = 100.0;
-    correspondence.is_finite()
-        && correspondence.weight > 1e-3
-        && correspondence
-            .point
-            .iter()
-            .all(|c| (-limit..limit).contains(c))
-        && correspondence
-            .pixel
-            .iter()
-            .all(|c| (1.0..2000.0).contains(c))
+fn score(
+    template: &[u8],
+    camera: &Camera,
+    pose: &Pose,
+    points: &Points<'_>,
+    count: usize,
+) -> Result<Report, Refusal> {
+    let stream = points.correspondences().take(count);
+    load_and_score(template, camera, pose, stream, || ())
 }
