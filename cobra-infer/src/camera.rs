@@ -71,7 +71,12 @@ impl Camera {
     /// # Errors
     /// [`CameraError::NotFinite`]; [`CameraError::FocalLength`] when a focal length is not positive.
     pub fn new(fx: f32, fy: f32, cx: f32, cy: f32) -> Result<Self, CameraError> {
-        Self::from_matrix([fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0])
+        for (value, row, column) in [(fx, 0, 0), (cx, 0, 2), (fy, 1, 1), (cy, 1, 2)] {
+            if !value.is_finite() {
+                return Err(CameraError::NotFinite { row, column });
+            }
+        }
+        Self::finite(fx, fy, cx, cy, 0.0)
     }
 
     /// The row-major matrix K = (fx s cx; 0 fy cy; 0 0 1).
@@ -95,6 +100,10 @@ impl Camera {
                 last: k22,
             });
         }
+        Self::finite(fx, fy, cx, cy, skew)
+    }
+
+    fn finite(fx: f32, fy: f32, cx: f32, cy: f32, skew: f32) -> Result<Self, CameraError> {
         for (name, value) in [("fx", fx), ("fy", fy)] {
             // A focal length so small that its inverse overflows is no focal length either.
             if value < f32::MIN_POSITIVE {

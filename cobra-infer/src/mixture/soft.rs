@@ -45,12 +45,12 @@ impl Blend {
     /// Takes exp(−xₖ) into the sums; whether the component has a weight, and so is to be asked.
     pub(super) fn weigh(&mut self, excess: f32, prepared: &Prepared) -> bool {
         let weight = math::exp(-excess);
-        if weight.is_nan() || weight <= 0.0 {
-            return false;
+        let heard = weight > 0.0;
+        if heard {
+            self.weights += weight;
+            self.thresholds += weight * prepared.threshold;
         }
-        self.weights += weight;
-        self.thresholds += weight * prepared.threshold;
-        true
+        heard
     }
 
     /// Takes the component's answer into the sum.

@@ -16,7 +16,7 @@ use serde::Deserialize;
 
 pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
     let header = Header::read(bytes)?;
-    let expected = wire::peek_len(bytes)?;
+    let expected = header.length();
     if expected != bytes.len() {
         return Err(TemplateError::Length {
             expected,

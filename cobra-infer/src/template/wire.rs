@@ -105,6 +105,11 @@ impl Header {
         })
     }
 
+    /// Where usize has 16 bits no slice is that long, and the length check will say so.
+    pub(super) fn length(&self) -> usize {
+        usize::try_from(self.length).unwrap_or(usize::MAX)
+    }
+
     pub(super) fn to_bytes(self) -> [u8; HEADER_LENGTH] {
         let [m0, m1, m2, m3] = MAGIC;
         let [v0, v1] = VERSION.to_le_bytes();
@@ -121,9 +126,7 @@ impl Header {
 /// # Errors
 /// [`TemplateError`] when the header is truncated or not that of a template of this version.
 pub fn peek_len(bytes: &[u8]) -> Result<usize, TemplateError> {
-    let length = Header::read(bytes)?.length;
-    // Where usize has 16 bits no slice is that long, and the length check will say so.
-    Ok(usize::try_from(length).unwrap_or(usize::MAX))
+    Ok(Header::read(bytes)?.length())
 }
 
 /// A section's header.

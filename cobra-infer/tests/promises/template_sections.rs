@@ -217,9 +217,8 @@ fn values_that_no_version_1_writer_writes_are_malformed() {
     let terms = Section::Terms;
     let unit = 1 + "nut".len();
     type Change = fn(&mut Vec<u8>, usize);
-    let cases: [(u16, Section, usize, Change); 7] = [
+    let cases: [(u16, Section, usize, Change); 6] = [
         (OBJECT, object, 0, |body, at| body[at] = 33),
-        (OBJECT, object, 1, |body, at| body[at] = 0xff),
         (OBJECT, object, unit, |body, at| body[at] = 4),
         (MODEL, model, 0, |body, at| body[at] = 2),
         (MODEL, model, 1, |body, at| body[at] = 6),
@@ -233,6 +232,15 @@ fn values_that_no_version_1_writer_writes_are_malformed() {
             TemplateError::MalformedSection { section },
             "byte {at} of section {tag}"
         );
+    }
+}
+
+#[test]
+fn of_a_name_that_is_no_utf_8_there_is_what_comes_before() {
+    let bytes = Content::small().encode();
+    for (at, expected) in [(1, ""), (2, "n"), (3, "nu")] {
+        let damaged = with_body(&bytes, OBJECT, |body| body[at] = 0xff);
+        assert_eq!(Template::from_bytes(&damaged).unwrap().name(), expected);
     }
 }
 
