@@ -98,7 +98,15 @@ score_on_host() {
                 --target-dir "$firmware_target/host"
     ) | tail -n +2 >"$firmware_folder/host.score"
     grep -q "wrong pose.*reject" "$firmware_folder/host.score" &&
-        [ "$(grep -c refused "$firmware_folder/host.score")" -eq 3 ]
+        [ "$(grep -c refused "$firmware_folder/host.score")" -eq 3 ] || return
+    # What a newcomer is told to see.
+    local line
+    while read -r line; do
+        grep -qF "$line" firmware-example/README.md || {
+            echo "firmware-example/README.md does not say: $line" >&2
+            return 1
+        }
+    done <"$firmware_folder/host.score"
 }
 
 # A panic handler that calls what nobody defines: a panic that can be reached does not link.
