@@ -39,9 +39,9 @@ fn has_std(os: &str, arch: &str) -> bool {
 fn has_riscv_f(target: &str) -> bool {
     let isa = target.split('-').next().unwrap_or_default();
     let extensions = isa
-        .trim_start_matches("riscv32")
-        .trim_start_matches("riscv64");
+        .strip_prefix("riscv32")
+        .or_else(|| isa.strip_prefix("riscv64"));
     // What follows an underscore or z are names of several letters.
-    let single = extensions.split(['_', 'z']).next().unwrap_or_default();
-    single.contains(['f', 'g', 'd'])
+    let single = extensions.and_then(|names| names.split(['_', 'z']).next());
+    single.is_some_and(|letters| letters.contains(['f', 'g', 'd']))
 }

@@ -15,9 +15,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         Ok(board) => board,
         Err(_) => usual(&target).to_owned(),
     };
-    let memory = Path::new("memory").join(format!("{board}.x"));
-    let layout = fs::read(&memory)
-        .map_err(|error| format!("COBRA_BOARD={board}: {}: {error}", memory.display()))?;
+    let Some((_, core)) = BOARDS.iter().find(|(name, _)| *name == board) else {
+        let names = BOARDS.map(|(name, _)| name).join(", ");
+        return Err(format!("COBRA_BOARD={board}: not one of {names}").into());
+    };
+    if !target.starts_with(core) {
+        return Err(format!("COBRA_BOARD={board} is a board for {core}, not for {target}").into());
+    }
+    let layout = fs::read(Path::new("memory").join(format!("{board}.x")))?;
     let out = env::var("OUT_DIR")?;
     fs::write(Path::new(&out).join("memory.x"), layout)?;
     println!("cargo::rustc-env=COBRA_BOARD={board}");
@@ -33,6 +38,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     Ok(())
 }
+
+/// Boards, and what their targets' names start with.
+const BOARDS: [(&str, &str); 6] = [
+    ("microbit", "thumbv6m"),
+    ("mps2-an385", "thumbv7m"),
+    ("lm3s6965evb", "thumbv7m"),
+    ("mps2-an386", "thumbv7em"),
+    ("mps2-an505", "thumbv8m.main"),
+    ("mps3-an547", "thumbv8m.main"),
+];
 
 fn usual(target: &str) -> &'static str {
     if target.starts_with("thumbv6m") {

@@ -2,12 +2,12 @@
 //!
 //! Prints what was counted, one line a template; dividing it up is the host's work.
 
-use crate::Board;
 use crate::footprint::{Refusal, load_and_score};
 use crate::stack;
+use crate::{Board, Failed};
 use cobra_agreement::vectors::Points;
 use cobra_infer::{Camera, Pose, Report};
-use core::fmt::{self, Write};
+use core::fmt::Write;
 use core::hint::black_box;
 
 macro_rules! measured {
@@ -44,13 +44,15 @@ static POINTS: &[u8] = include_bytes!("../../../tests/golden/budget/sphere.point
 /// Measures and prints.
 ///
 /// # Errors
-/// Those of `out`.
-pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
+/// [`Failed`] when something cannot be scored, or when `out` fails.
+pub fn run(board: &mut impl Board, out: &mut impl Write) -> Result<(), Failed> {
     let Some(points) = Points::read(black_box(POINTS)) else {
-        return writeln!(out, "the points do not read");
+        writeln!(out, "the points do not read")?;
+        return Err(Failed);
     };
     let (Some(camera), Some(pose)) = (points.camera(), points.pose(0, false)) else {
-        return writeln!(out, "camera or pose does not read");
+        writeln!(out, "camera or pose does not read")?;
+        return Err(Failed);
     };
     for (name, template) in TEMPLATES {
         board.feed_watchdog();
@@ -68,7 +70,8 @@ pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
         };
         let all = points.correspondences().len();
         let (Ok((_, without)), Ok((report, with))) = (counted(0), counted(all)) else {
-            return writeln!(out, "{name} cannot be scored");
+            writeln!(out, "{name} cannot be scored")?;
+            return Err(Failed);
         };
         writeln!(
             out,

@@ -28,3 +28,13 @@ pub trait Board {
     /// differences mean something.
     fn instructions(&mut self) -> u64;
 }
+
+/// Something did not come out as it should, and was told, or could not be told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Failed;
+
+impl From<core::fmt::Error> for Failed {
+    fn from(_: core::fmt::Error) -> Self {
+        Self
+    }
+}

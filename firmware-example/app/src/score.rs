@@ -1,7 +1,7 @@
 //! The example: a template in flash, a stream of correspondences, a watchdog, a report.
 
-use crate::Board;
 use crate::footprint::{COMPONENTS, Refusal, load_and_score, settings};
+use crate::{Board, Failed};
 use cobra_agreement::vectors::Points;
 use cobra_infer::{Correspondence, Report, Scorer, Template};
 use core::fmt::{self, Write};
@@ -18,12 +18,16 @@ pub const POSES: [(usize, &str); 2] = [(0, "right pose"), (1, "wrong pose")];
 /// Scores the right pose and a wrong one, then shows what is refused.
 ///
 /// # Errors
-/// Those of `out`.
-pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
+/// [`Failed`] when a pose cannot be scored, when something is accepted that should not be, or when
+/// `out` fails.
+pub fn run(board: &mut impl Board, out: &mut impl Write) -> Result<(), Failed> {
     writeln!(out, "COBRA on {}", board.name())?;
     let template = match Template::from_bytes(TEMPLATE) {
         Ok(template) => template,
-        Err(error) => return writeln!(out, "the template is refused: {error}"),
+        Err(error) => {
+            writeln!(out, "the template is refused: {error}")?;
+            return Err(Failed);
+        }
     };
     writeln!(
         out,
@@ -34,18 +38,25 @@ pub fn run(board: &mut impl Board, out: &mut impl Write) -> fmt::Result {
         template.cost().nearest
     )?;
     let Some((points, camera)) = Points::read(STREAM).and_then(|p| Some((p, p.camera()?))) else {
-        return writeln!(out, "the stream does not read");
+        writeln!(out, "the stream does not read")?;
+        return Err(Failed);
     };
     for (index, title) in POSES {
         let Some(pose) = points.pose(index, false) else {
-            return writeln!(out, "the {title} does not read");
+            writeln!(out, "the {title} does not read")?;
+            return Err(Failed);
         };
         let stream = points.correspondences().filter(is_sound);
         let report = load_and_score(TEMPLATE, &camera, &pose, stream, || board.feed_watchdog());
         match report {
             Ok(report) => print(&report, title, out)?,
-            Err(Refusal::Template(error)) => writeln!(out, "{title}: {error}")?,
-            Err(Refusal::Score(error)) => writeln!(out, "{title}: {error}")?,
+            Err(refusal) => {
+                match refusal {
+                    Refusal::Template(error) => writeln!(out, "{title}: {error}")?,
+                    Refusal::Score(error) => writeln!(out, "{title}: {error}")?,
+                }
+                return Err(Failed);
+            }
         }
     }
     refusals(out)
@@ -76,7 +87,7 @@ pub fn print(report: &Report, title: &str, out: &mut impl Write) -> fmt::Result 
 }
 
 /// Every board must refuse the same input for the same reason as the host.
-fn refusals(out: &mut impl Write) -> fmt::Result {
+fn refusals(out: &mut impl Write) -> Result<(), Failed> {
     let mut corrupted = [0; cobra_agreement::SETS[2].template.len()];
     for (index, (byte, sound)) in corrupted
         .iter_mut()
@@ -93,20 +104,29 @@ fn refusals(out: &mut impl Write) -> fmt::Result {
         ("cut template", short),
     ] {
         match Template::from_bytes(bytes) {
-            Ok(_) => writeln!(out, "{title}: NOT REFUSED")?,
+            Ok(_) => {
+                writeln!(out, "{title}: NOT REFUSED")?;
+                return Err(Failed);
+            }
             Err(error) => writeln!(out, "{title} refused: {error}")?,
         }
     }
-    let (Ok(template), Some(points)) = (Template::from_bytes(TEMPLATE), Points::read(STREAM))
-    else {
-        return writeln!(out, "the template or the stream does not read");
+    let points = Points::read(STREAM);
+    let (Ok(template), Some(camera), Some(pose)) = (
+        Template::from_bytes(TEMPLATE),
+        points.and_then(|points| points.camera()),
+        points.and_then(|points| points.pose(0, false)),
+    ) else {
+        writeln!(out, "the template or the stream does not read")?;
+        return Err(Failed);
     };
-    let settings = settings(&template);
-    if let (Some(camera), Some(pose)) = (points.camera(), points.pose(0, false)) {
-        match Scorer::<2>::new(&template, &camera, &pose, &settings) {
-            Ok(_) => writeln!(out, "template too large for the scorer: NOT REFUSED")?,
-            Err(error) => writeln!(out, "template too large for the scorer refused: {error}")?,
+    match Scorer::<2>::new(&template, &camera, &pose, &settings(&template)) {
+        Ok(_) => {
+            writeln!(out, "template too large for the scorer: NOT REFUSED")?;
+            return Err(Failed);
         }
+        Err(error) => writeln!(out, "template too large for the scorer refused: {error}")?,
     }
-    writeln!(out, "room for components: {COMPONENTS}")
+    writeln!(out, "room for components: {COMPONENTS}")?;
+    Ok(())
 }

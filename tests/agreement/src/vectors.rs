@@ -44,8 +44,11 @@ macro_rules! set {
 /// under exponent 1; and a template of one component and 20 terms.
 pub const SETS: [Set; 3] = [set!("k-means"), set!("em"), set!("tiny")];
 
-/// The set of that name, or all of them by the name `all`; none by any other. For boards whose flash
-/// does not hold all at once: as a constant, it links only what it names.
+/// The set of that name, or all of them by the name `all`. For boards whose flash does not hold all
+/// at once: as a constant, it links only what it names.
+///
+/// # Panics
+/// On any other name, which for a constant is when it is compiled.
 #[must_use]
 pub const fn sets_named(name: &str) -> &'static [Set] {
     match name.as_bytes() {
@@ -53,7 +56,7 @@ pub const fn sets_named(name: &str) -> &'static [Set] {
         b"k-means" => &[SETS[0]],
         b"em" => &[SETS[1]],
         b"tiny" => &[SETS[2]],
-        _ => &[],
+        _ => panic!("a set is one of all, k-means, em and tiny"),
     }
 }
 

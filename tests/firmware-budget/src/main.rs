@@ -99,7 +99,8 @@ fn row(folder: &Path, line: &str) -> Result<Row, Box<dyn Error>> {
     };
     let (small, large) = (cost("one-1x32")?, cost("one-1x192")?);
     let per_evaluation = (large - small) / 160.0;
-    let per_component = (cost("one-9x32")? - small) / 8.0;
+    let nine = cost("one-9x32")?;
+    let per_component = (nine - small) / 8.0;
     Ok(Row {
         target: target.into(),
         board: board.into(),
@@ -109,7 +110,7 @@ fn row(folder: &Path, line: &str) -> Result<Row, Box<dyn Error>> {
         stack_bytes: stack.most("bytes")?,
         per_point: small - 32.0 * per_evaluation - per_component,
         per_component,
-        per_precision: (cost("one-9x32-precisions")? - small) / 8.0,
+        per_precision: per_component + (cost("one-9x32-precisions")? - nine) / 9.0,
         per_evaluation: [
             per_evaluation,
             (cost("half-1x192")? - cost("half-1x32")?) / 160.0,

@@ -11,14 +11,15 @@ use cortex_m_rt::entry;
 // Brings the vector table or the memory layout along.
 use cobra_cortex_m as _;
 
-/// Where a bootloader would have put the template, and where a device would write.
+/// Where a bootloader would have put the template, and where a device would write: addresses of an
+/// M4F that stand for any. The program is not meant to be run.
 const TEMPLATE: (usize, usize) = (0x0002_0000, 0x4000);
 const MAILBOX: usize = 0x2000_2000;
 
 #[entry]
 fn main() -> ! {
     let (start, length) = black_box(TEMPLATE);
-    // SAFETY: flash and RAM of every board here, in use for nothing else.
+    // SAFETY: flash and RAM of the board that the addresses are of, in use for nothing else.
     unsafe {
         let template =
             core::slice::from_raw_parts(core::ptr::with_exposed_provenance(start), length);
