@@ -133,7 +133,7 @@ unsafe fn sealed<H: Handle>(handle: *const H) -> Result<(), CobraStatus> {
 pub(crate) unsafe fn open<'a, H: Handle>(handle: *const H) -> Result<&'a H, CobraStatus> {
     // SAFETY: the caller's promise.
     unsafe { sealed(handle) }?;
-    // SAFETY: the seal says that `make` put a handle there; the rest is the caller's promise.
+    // SAFETY: the seal says that `fill` put a handle there; the rest is the caller's promise.
     Ok(unsafe { &*handle })
 }
 
@@ -148,21 +148,25 @@ pub(crate) unsafe fn open_mut<'a, H: Handle>(handle: *mut H) -> Result<&'a mut H
     Ok(unsafe { &mut *handle })
 }
 
-/// Puts a handle into the caller's memory and tells `out` where it is. When `build` fails, the
-/// memory holds no handle.
+/// Memory of the caller's that a handle is about to be put into, and where to tell of it.
+pub(crate) struct Claimed<H> {
+    place: *mut H,
+    out: *mut *mut H,
+}
+
+/// Takes the caller's memory for a handle. Until [`fill`], it holds none, whatever it held before.
 ///
 /// `argument` is what the handle will borrow, which the memory must not overlap.
 ///
 /// # Safety
-/// `memory` is NULL, misaligned, or points to `size` bytes that may be written; `out` as in
-/// [`write`].
-pub(crate) unsafe fn make<H: Handle>(
+/// `memory` is NULL, misaligned, or points to `size` bytes that may be written, also when [`fill`]
+/// is called; `out` as in [`write`], also then.
+pub(crate) unsafe fn claim<H: Handle>(
     memory: *mut c_void,
     size: usize,
     out: *mut *mut H,
     argument: Region,
-    build: impl FnOnce() -> Result<H::Content, CobraStatus>,
-) -> Result<(), CobraStatus> {
+) -> Result<Claimed<H>, CobraStatus> {
     let place = memory.cast::<H>();
     usable(place.cast_const())?;
     if size < size_of::<H>() {
@@ -174,12 +178,33 @@ pub(crate) unsafe fn make<H: Handle>(
     }
     // SAFETY: inside the memory, which is aligned, large enough and, the caller's promise, writable.
     unsafe { seal(place).write(0) };
-    let content = place
+    Ok(Claimed { place, out })
+}
+
+/// Copies what was built into the claimed memory, seals the handle and tells its caller of it.
+///
+/// What was built is copied from inside its `Result`: moved out of it first, it would lie on the
+/// stack once more.
+///
+/// # Safety
+/// `claimed` is of [`claim`], whose promise still holds.
+pub(crate) unsafe fn fill<H: Handle, E: Copy + Into<CobraStatus>>(
+    claimed: Claimed<H>,
+    built: Result<H::Content, E>,
+) -> Result<(), CobraStatus> {
+    let content = match &built {
+        Ok(content) => ptr::from_ref(content),
+        Err(error) => return Err((*error).into()),
+    };
+    let Claimed { place, out } = claimed;
+    let to = place
         .wrapping_byte_add(H::CONTENT_OFFSET)
         .cast::<H::Content>();
     // By part, because a whole handle would first be put together on the stack.
-    // SAFETY: as above.
-    unsafe { content.write(build()?) };
+    // SAFETY: inside the memory that was claimed, which overlaps no variable of this library's.
+    unsafe { to.copy_from_nonoverlapping(content, 1) };
+    // It lives on there.
+    core::mem::forget(built);
     // SAFETY: as above.
     unsafe { seal(place).write(H::SEAL) };
     // SAFETY: the caller's promise.

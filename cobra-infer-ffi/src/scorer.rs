@@ -96,16 +96,12 @@ pub unsafe extern "C" fn cobra_scorer_start(
         // SAFETY: the caller's promise; any bits are a CobraSettings.
         let settings = unsafe { pointer::read(settings) }?;
         let borrowed = Region::new(template, size_of::<CobraTemplate>())?;
-        let build = || {
-            Ok(Scorer::new(
-                &loaded.template,
-                &camera.checked()?,
-                &pose.checked()?,
-                &settings.to_rust()?,
-            )?)
-        };
         // SAFETY: the caller's promise.
-        unsafe { pointer::make(memory, memory_size, out, borrowed, build) }
+        let claimed = unsafe { pointer::claim(memory, memory_size, out, borrowed) }?;
+        let (camera, pose) = (camera.checked()?, pose.checked()?);
+        let scorer = Scorer::new(&loaded.template, &camera, &pose, &settings.to_rust()?);
+        // SAFETY: the caller's promise.
+        unsafe { pointer::fill(claimed, scorer) }
     };
     pointer::status(start())
 }

@@ -81,9 +81,10 @@ pub unsafe extern "C" fn cobra_template_load(
         // SAFETY: the caller's promise, which reaches as far as the handle is used.
         let content: &'static [u8] = unsafe { pointer::slice(bytes, length) }?;
         let borrowed = Region::new(bytes, length)?;
-        let build = || Ok(Template::from_bytes(content)?);
         // SAFETY: the caller's promise.
-        unsafe { pointer::make(memory, memory_size, out, borrowed, build) }
+        let claimed = unsafe { pointer::claim(memory, memory_size, out, borrowed) }?;
+        // SAFETY: the caller's promise.
+        unsafe { pointer::fill(claimed, Template::from_bytes(content)) }
     };
     pointer::status(load())
 }

@@ -29,11 +29,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let points = std::fs::read(Path::new(points))?;
     let mut template = std::fs::read(template)?;
-    score(&template, &points).map_err(text)?;
+    for only_sound in [false, true] {
+        score(&template, &points, only_sound).map_err(text)?;
+    }
     let middle = template.len() / 2;
     template[middle] ^= 1;
     for (what, bytes) in [("damaged", template), ("crowded", std::fs::read(crowded)?)] {
-        match score(&bytes, &points) {
+        match score(&bytes, &points, false) {
             Ok(()) => return Err(format!("{what}: not refused").into()),
             Err(status) => println!("{what}: {}", text(status)),
         }
@@ -45,7 +47,7 @@ fn text(status: CobraStatus) -> String {
     status.text().to_string_lossy().into_owned()
 }
 
-fn score(template: &[u8], mut points: &[u8]) -> Result<(), CobraStatus> {
+fn score(template: &[u8], mut points: &[u8], only_sound: bool) -> Result<(), CobraStatus> {
     let template = Template::from_bytes(template)?;
     let camera = Camera::from_matrix(floats(&mut points))?;
     let poses = word(&mut points);
@@ -60,11 +62,15 @@ fn score(template: &[u8], mut points: &[u8]) -> Result<(), CobraStatus> {
     let mut scorer = Scorer::<COMPONENTS>::new(&template, &camera, &pose, &settings)?;
     for _ in 0..word(&mut points) {
         let [u, v, x, y, z, weight] = floats(&mut points);
-        let point = scorer.push(&Correspondence {
+        let correspondence = Correspondence {
             pixel: Point2::new(u, v),
             point: Point3::new(x, y, z),
             weight,
-        });
+        };
+        if only_sound && !(correspondence.is_finite() && weight >= 0.0) {
+            continue;
+        }
+        let point = scorer.push(&correspondence);
         println!("{:08x}", point.likelihood.to_bits());
     }
     assert!(points.is_empty(), "{} bytes too many", points.len());

@@ -5,10 +5,6 @@
 # a bit. The host's tests compare the same without it.
 comparison="--quiet --package cobra-agreement --features golden --bin agreement --release --locked"
 
-host_target() {
-    rustc -vV | sed -n 's/^host: //p'
-}
-
 # same_bits WHERE COMMAND...: one test.
 same_bits() {
     local name="the same bits $1"
@@ -95,11 +91,11 @@ need_node() {
 
 # Sets `wasm_linker`.
 find_wasm_linker() {
-    wasm_linker=$(rustc --print sysroot)/lib/rustlib/$(host_target)/bin/rust-lld
+    wasm_linker=$(rustup_linkers)/rust-lld
     [ -x "$wasm_linker" ] || wasm_linker=$(command -v wasm-ld)
 }
 
-# rustup's toolchain brings its linker, and lends it where `std` is built by Debian's, which has none.
+# rustup's is lent where `std` is built by Debian's toolchain, which has none.
 need_wasm_linker() {
     find_wasm_linker || { apt_install lld && find_wasm_linker; }
 }

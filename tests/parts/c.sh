@@ -128,8 +128,11 @@ c_host() {
 c_rust() {
     cargo run --quiet --package cobra-tests --locked --example print-bits -- \
         "$c_golden/$1.cobra" "$c_dir/crowded.cobra" "$c_golden/$1.points" >"$c_dir/$1.rust" || return
-    # Something was scored, and both refusals are there.
-    [ "$(wc -l <"$c_dir/$1.rust")" -gt 1000 ] && grep -q '^damaged: ' "$c_dir/$1.rust" &&
+    # Something was scored, on all points and on the sound ones, and both refusals are there.
+    [ "$(wc -l <"$c_dir/$1.rust")" -gt 1000 ] &&
+        [ "$(grep -c '^confidence ' "$c_dir/$1.rust")" -eq 2 ] &&
+        grep -qE ' decision (accept|below-threshold)$' "$c_dir/$1.rust" &&
+        grep -q '^damaged: ' "$c_dir/$1.rust" &&
         grep -q '^crowded: ' "$c_dir/$1.rust"
 }
 

@@ -91,7 +91,7 @@ measure_board() {
 
 score_on_host() {
     local host
-    host=$(rustc -vV | sed -n 's/^host: //p')
+    host=$(host_target)
     (
         cd firmware-example &&
             cargo run --quiet --release --locked --package cobra-host --target "$host" \
@@ -155,23 +155,23 @@ part_firmware() {
     : >"$firmware_folder/rows"
     firmware_check "the firmware's example on this computer" score_on_host
     while read -r target board emulator; do
-        if need_cross "$target"; then
+        if need_bare_metal "$target"; then
             firmware_check "$board, $target" measure_board "$target" "$board" "$emulator"
         else
-            skip "$board: no \`core\` for $target, neither from rustup nor from Debian's packages"
+            skip "$board: no \`core\` and linker for $target, neither from rustup nor from Debian's packages"
         fi
     done < <(boards)
     for level in 3 s; do
         for target in "thumbv7em-none-eabihf mps2-an386" "riscv32imac-unknown-none-elf virt"; do
             board=${target#* }
             target=${target% *}
-            if need_cross "$target"; then
+            if need_bare_metal "$target"; then
                 firmware_check "no panic can be reached: $target, opt-level $level" \
                     links_without_panic "$target" "$level" "$board"
             fi
         done
     done
-    if need_cross thumbv7em-none-eabihf; then
+    if need_bare_metal thumbv7em-none-eabihf; then
         firmware_check "the example on an async executor" runs_on_the_executor
     fi
     if [ "$(wc -l <"$firmware_folder/rows")" -ne "$(boards | wc -l)" ]; then

@@ -65,6 +65,10 @@ need_lints() {
     fi
 }
 
+host_target() {
+    rustc -vV | sed -n 's/^host: //p'
+}
+
 # Asks the compiler, not rustup: a distribution may ship the target too.
 has_target() {
     [ -d "$(rustc --print target-libdir --target "$1" 2>/dev/null)" ]
@@ -84,10 +88,35 @@ need_target() {
 
 web_cargo=/usr/bin/cargo
 web_sources=/usr/lib/rustlib/src/rust/library
+bare_linkers=""
 
 need_web_toolchain() {
     [ -x "$web_cargo" ] && [ -d "$web_sources" ] && return
     apt_install rustc-web cargo-web rust-web-src && [ -d "$web_sources" ]
+}
+
+# rustup's toolchain brings its linker, rust-lld.
+rustup_linkers() {
+    echo "$(rustc --print sysroot)/lib/rustlib/$(host_target)/bin"
+}
+
+# Debian's toolchain links bare metal with rust-lld too, but has none: rustup's is lent to it, or
+# LLVM's, which goes by that name here. Sets `bare_linkers`, the folder that it lies in.
+need_bare_linker() {
+    local folder
+    bare_linkers=$(rustup_linkers)
+    [ -x "$bare_linkers/rust-lld" ] && return
+    command -v lld >/dev/null || { apt_install lld && command -v lld >/dev/null; } || return
+    folder=$target_dir/linkers
+    mkdir -p "$folder" && ln -sf "$(command -v lld)" "$folder/rust-lld" || return
+    # Absolute, because the firmware's example is built from its own folder.
+    bare_linkers=$(cd "$folder" && pwd)
+}
+
+# As need_cross, for what is linked and not only compiled.
+need_bare_metal() {
+    need_cross "$1" || return
+    [ "$cross_how" = rustup ] || need_bare_linker
 }
 
 # Whether `core` (or `std`) is to be had for a target, and in which way: sets `cross_how`.
@@ -123,7 +152,7 @@ cross() {
         cargo "$subcommand" --target "$target" --target-dir "$cross_dir" "$@"
     else
         cross_dir=$target_dir/web
-        PATH=/usr/bin:$PATH RUSTC_BOOTSTRAP=1 CARGO_UNSTABLE_BUILD_STD=$crates \
+        PATH=/usr/bin:$PATH${bare_linkers:+:$bare_linkers} RUSTC_BOOTSTRAP=1 CARGO_UNSTABLE_BUILD_STD=$crates \
             CARGO_UNSTABLE_BUILD_STD_FEATURES=compiler-builtins-mem \
             "$web_cargo" "$subcommand" --target "$target" --target-dir "$cross_dir" "$@"
     fi

@@ -1,11 +1,16 @@
 /* Scores the pose of a linked-in file against a linked-in template, and shows what is refused.
  *
+ * Some of the file's correspondences are unsound, so that the answer on all of them is undecided; on
+ * the sound ones alone there is a decision.
+ *
  * The same on firmware and on a host. Prints the bits of every result, so that runs on different
  * processors can be compared. */
 
 #include "cobra_infer.h"
 
 #include <inttypes.h>
+#include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -54,7 +59,18 @@ static CobraStatus load(const unsigned char *start, const unsigned char *end,
                                (size_t)(end - start), loaded);
 }
 
-static CobraStatus score(CobraTemplate *loaded)
+static bool is_sound(const float numbers[6])
+{
+    int i;
+    for (i = 0; i < 6; i++) {
+        if (!isfinite(numbers[i])) {
+            return false;
+        }
+    }
+    return numbers[5] >= 0; /* the weight */
+}
+
+static CobraStatus score(CobraTemplate *loaded, bool only_sound)
 {
     const unsigned char *next = points_start;
     CobraCamera camera;
@@ -89,6 +105,9 @@ static CobraStatus score(CobraTemplate *loaded)
         CobraCorrespondence correspondence;
 
         next = take(next, numbers, sizeof numbers);
+        if (only_sound && !is_sound(numbers)) {
+            continue;
+        }
         correspondence.u = numbers[0];
         correspondence.v = numbers[1];
         correspondence.x = numbers[2];
@@ -121,7 +140,10 @@ int main(void)
 
     status = load(template_start, template_end, &loaded);
     if (status == COBRA_STATUS_OK) {
-        status = score(loaded);
+        status = score(loaded, false);
+    }
+    if (status == COBRA_STATUS_OK) {
+        status = score(loaded, true);
     }
     if (status != COBRA_STATUS_OK) {
         printf("failed: %s\n", cobra_status_string(status));
@@ -142,7 +164,7 @@ int main(void)
 
     status = load(crowded_start, crowded_end, &loaded);
     if (status == COBRA_STATUS_OK) {
-        status = score(loaded);
+        status = score(loaded, false);
     }
     printf("crowded: %s\n", cobra_status_string(status));
     return status == COBRA_STATUS_OK;
