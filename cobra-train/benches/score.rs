@@ -78,6 +78,9 @@ fn measure(criterion: &mut Criterion, object: &Object, size: &Size) {
         let name = format!("{}, {rule}", Kernel::ALL[0].name());
         bench(&name, &templates[0], assignment);
     }
+    table.bench("loading the template", || {
+        Template::from_bytes(&templates[0]).expect("what was trained can be read")
+    });
 
     let cloud: Vec<[f32; 3]> = surface.iter().map(|p| p.cast::<f32>().into()).collect();
     let tree = ImmutableKdTree::<f32, 3>::new_from_slice(&cloud)

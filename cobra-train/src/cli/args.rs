@@ -129,8 +129,8 @@ pub(crate) struct TrainArguments {
     #[arg(long, value_enum, default_value_t = KernelArgument::Rq)]
     pub(crate) kernel: KernelArgument,
 
-    /// Exponent of the rational quadratic [default: 1]; scoring with 0.5 takes about 4 times as
-    /// long as with 1, with a free exponent about 70 times
+    /// Exponent of the rational quadratic [default: 1]; scoring with 0.5 takes about 1.6 times
+    /// as long as with 1, with a free exponent about 80 times
     #[arg(long, value_name = "ALPHA", value_enum)]
     pub(crate) exponent: Option<ExponentArgument>,
 
