@@ -9,7 +9,7 @@
 //! | [`status`] | the status numbers, their texts, and which error each stands for |
 //! | [`strings`] | the texts as C asks for them |
 //! | [`types`] | the structures and enumerations of the interface |
-//! | [`pointer`] | what is checked of a pointer before it is used |
+//! | [`mod@pointer`] | what is checked of a pointer before it is used |
 //! | [`template`] | loading a template and asking about it |
 //! | [`camera`] | checks of lens distortion, repair of rotations |
 //! | [`scorer`] | scoring one pose |
