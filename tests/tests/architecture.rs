@@ -1,6 +1,8 @@
-//! ARCHITECTURE.md's table of equations names functions and tests that exist.
+//! ARCHITECTURE.md's table of equations names functions and tests that exist, and the workspace has one
+//! program that `cargo run` can mean.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 const PAGE: &str = include_str!("../../ARCHITECTURE.md");
 
@@ -99,4 +101,31 @@ fn the_tests_of_the_equations_exist() {
         }
         assert!(named > 0, "{tests}");
     }
+}
+
+#[test]
+fn cargo_run_knows_that_the_command_is_meant() {
+    let metadata = Command::new(env!("CARGO"))
+        .args([
+            "metadata",
+            "--no-deps",
+            "--offline",
+            "--format-version",
+            "1",
+        ])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    assert!(metadata.status.success());
+    let metadata: serde_json::Value = serde_json::from_slice(&metadata.stdout).unwrap();
+    let list = |value: &serde_json::Value| value.as_array().unwrap().clone();
+    let members = list(&metadata["workspace_default_members"]);
+    let programs: Vec<String> = list(&metadata["packages"])
+        .iter()
+        .filter(|package| members.contains(&package["id"]))
+        .flat_map(|package| list(&package["targets"]))
+        .filter(|target| target["kind"] == serde_json::json!(["bin"]))
+        .map(|target| target["name"].as_str().unwrap().to_owned())
+        .collect();
+    assert_eq!(programs, ["cobra"]);
 }
