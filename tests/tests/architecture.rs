@@ -113,7 +113,7 @@ fn cargo_run_knows_that_the_command_is_meant() {
             "--format-version",
             "1",
         ])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .current_dir(workspace())
         .output()
         .unwrap();
     assert!(metadata.status.success());
