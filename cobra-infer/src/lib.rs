@@ -17,6 +17,7 @@
 //! | [`gp`] | the posterior mean over borrowed arrays, and its order of summation |
 //! | [`camera`] | pinhole intrinsics and back-projection |
 //! | [`pose`] | rotation and translation, checked |
+//! | [`validity`] | the directions and the boxes in which a component may speak |
 //! | [`mixture`] | the likelihood of one object-frame point under a template |
 //! | [`mod@score`] | the streaming scorer, the confidence of Eq. 10, the decision |
 //! | [`bound`] | the threshold: Eq. 11, the exact average, the worst case |
@@ -81,6 +82,7 @@ pub mod template;
 pub mod tolerance;
 mod trace;
 mod unit;
+pub mod validity;
 
 pub use bound::Threshold;
 pub use camera::{Camera, Correspondence};
