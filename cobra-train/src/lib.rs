@@ -36,3 +36,4 @@ pub mod random;
 pub mod reference;
 pub mod surface;
 pub mod train;
+pub mod validity;

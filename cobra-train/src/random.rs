@@ -29,6 +29,10 @@ pub enum Purpose {
     RaysFromWithin,
     /// Which points of a cloud a template is fitted to, and which measure σ̂.
     CloudSplit,
+    /// Which samples charts are chosen on, and beside which their centres are looked for.
+    Charts,
+    /// Which samples around a chart it is fitted to besides its own.
+    ChartRings,
 }
 
 /// The stream for one purpose and index.

@@ -2,6 +2,7 @@
 //!
 //! Owns their placement and the assignment of points to them; fitting is `gp`'s work.
 
+mod charts;
 mod cluster;
 mod em;
 mod given;
@@ -9,6 +10,7 @@ mod kmeans;
 mod membership;
 mod select;
 
+pub use charts::{Chart, charts};
 pub use cluster::{Cluster, NotAPrecision};
 pub use em::{COVARIANCE_FLOOR, GaussianMixture, em};
 pub use given::{ReadReferencePointsError, read_reference_points};

@@ -14,6 +14,8 @@ use rand::RngExt;
 use rayon::prelude::*;
 
 use super::mesh::Mesh;
+use super::near::NearestPoints;
+use super::sample::SurfacePoint;
 use crate::random::{Purpose, stream};
 
 /// Candidates a point, as the paper recommends.
@@ -84,9 +86,52 @@ fn candidates(mesh: &Mesh, areas: &[f64], count: usize, seed: u64) -> Vec<Point3
 
 /// Removes the candidate of the largest weight until `count` are left; of equals, the first.
 fn eliminate(candidates: Vec<Point3<f64>>, count: usize, area: f64) -> Vec<Point3<f64>> {
+    let kept = survivors(&candidates, count, area);
+    candidates
+        .into_iter()
+        .zip(kept)
+        .filter_map(|(point, kept)| kept.then_some(point))
+        .collect()
+}
+
+/// `count` of `points` that are spread evenly over what they lie on, in their order.
+#[must_use]
+pub fn thin(points: Vec<SurfacePoint>, count: usize) -> Vec<SurfacePoint> {
+    if points.len() <= count {
+        return points;
+    }
+    let positions: Vec<Point3<f64>> = points.iter().map(|p| p.position).collect();
+    let kept = survivors(&positions, count, estimated_area(&positions));
+    points
+        .into_iter()
+        .zip(kept)
+        .filter_map(|(point, kept)| kept.then_some(point))
+        .collect()
+}
+
+/// Of the surface that points lie on: each stands for an eighth of the disk that reaches to its eighth
+/// neighbour.
+fn estimated_area(points: &[Point3<f64>]) -> f64 {
+    const NEIGHBOURS: usize = 8;
+    let coordinates: Vec<[f64; 3]> = points.iter().map(|p| p.coords.into()).collect();
+    let tree = NearestPoints::new(&coordinates);
+    let shares: Vec<f64> = coordinates
+        .par_iter()
+        .map(|point| {
+            let farthest = tree.nearest(point, NEIGHBOURS + 1).last();
+            farthest.map_or(0.0, |near| {
+                std::f64::consts::PI * near.distance * near.distance / NEIGHBOURS as f64
+            })
+        })
+        .collect();
+    shares.iter().sum()
+}
+
+/// Whether each candidate is left.
+fn survivors(candidates: &[Point3<f64>], count: usize, area: f64) -> Vec<bool> {
     let coordinates: Vec<[f64; 3]> = candidates.iter().map(|p| p.coords.into()).collect();
     let Ok(tree) = ImmutableKdTree::<f64, 3>::new_from_slice(&coordinates) else {
-        return Vec::new();
+        return vec![false; candidates.len()];
     };
     let reach = largest_spacing(area, count.max(1));
     let thinning = count as f64 / candidates.len().max(1) as f64;
@@ -138,11 +183,7 @@ fn eliminate(candidates: Vec<Point3<f64>>, count: usize, area: f64) -> Vec<Point
             }
         }
     }
-    candidates
-        .into_iter()
-        .zip(kept)
-        .filter_map(|(point, kept)| kept.then_some(point))
-        .collect()
+    kept
 }
 
 #[cfg(test)]
