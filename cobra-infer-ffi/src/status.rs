@@ -84,6 +84,20 @@ pub enum CobraStatus {
     TemplatePrecisionCount = 126,
     /// A precision's factor is not finite or has no positive diagonal.
     TemplatePrecision = 127,
+    /// Compact terms have no metric of angles.
+    TemplateCompactAngles = 128,
+    /// There are not as many validities as components.
+    TemplateValidityCount = 129,
+    /// A component's box is empty or leaves its grid.
+    TemplateValidityBox = 130,
+    /// A component's grid of directions is not one that there is.
+    TemplateValidityGrid = 131,
+    /// The components' cells do not follow each other, or are missing.
+    TemplateValidityRange = 132,
+    /// A component's cells are malformed, or none is valid.
+    TemplateValidityCells = 133,
+    /// Cells belong to no component.
+    TemplateUnusedCells = 134,
 
     /// An entry of the camera matrix is not finite.
     CameraNotFinite = 200,
@@ -123,7 +137,7 @@ use CobraStatus as S;
 
 impl CobraStatus {
     /// Every status, in the order of its number.
-    pub(crate) const ALL: [Self; 50] = [
+    pub(crate) const ALL: [Self; 57] = [
         S::Ok,
         S::NullPointer,
         S::Misaligned,
@@ -159,6 +173,13 @@ impl CobraStatus {
         S::TemplateAngles,
         S::TemplatePrecisionCount,
         S::TemplatePrecision,
+        S::TemplateCompactAngles,
+        S::TemplateValidityCount,
+        S::TemplateValidityBox,
+        S::TemplateValidityGrid,
+        S::TemplateValidityRange,
+        S::TemplateValidityCells,
+        S::TemplateUnusedCells,
         S::CameraNotFinite,
         S::CameraFocalLength,
         S::CameraShape,
@@ -223,6 +244,13 @@ impl CobraStatus {
             S::TemplateAngles => c"a direction's angles are out of their range",
             S::TemplatePrecisionCount => c"there are not as many precisions as components",
             S::TemplatePrecision => c"a component's precision is not positive definite",
+            S::TemplateCompactAngles => c"compact terms have no metric of angles",
+            S::TemplateValidityCount => c"there are not as many validities as components",
+            S::TemplateValidityBox => c"a component's box is empty or leaves its grid",
+            S::TemplateValidityGrid => c"a component's grid of directions is not one that there is",
+            S::TemplateValidityRange => c"a component's cells do not follow those before it",
+            S::TemplateValidityCells => c"a component's cells are malformed, or none is valid",
+            S::TemplateUnusedCells => c"the template has cells that no component uses",
             S::CameraNotFinite => c"an entry of the camera matrix is not finite",
             S::CameraFocalLength => c"a focal length is not positive",
             S::CameraShape => c"the camera matrix is not (fx s cx; 0 fy cy; 0 0 1)",
@@ -276,6 +304,13 @@ impl From<TemplateError> for CobraStatus {
             E::Angles { .. } => S::TemplateAngles,
             E::PrecisionCount { .. } => S::TemplatePrecisionCount,
             E::Precision { .. } => S::TemplatePrecision,
+            E::CompactAngles => S::TemplateCompactAngles,
+            E::ValidityCount { .. } => S::TemplateValidityCount,
+            E::ValidityBox { .. } => S::TemplateValidityBox,
+            E::ValidityGrid { .. } => S::TemplateValidityGrid,
+            E::ValidityRange { .. } => S::TemplateValidityRange,
+            E::ValidityCells { .. } => S::TemplateValidityCells,
+            E::UnusedCells { .. } => S::TemplateUnusedCells,
         }
     }
 }

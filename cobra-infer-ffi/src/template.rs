@@ -175,7 +175,9 @@ pub(crate) fn detail(error: TemplateError) -> CobraTemplateDetail {
         | E::Length { expected, found }
         | E::RecordLength { expected, found }
         | E::UnusedTerms { expected, found }
-        | E::PrecisionCount { expected, found } => {
+        | E::PrecisionCount { expected, found }
+        | E::ValidityCount { expected, found }
+        | E::UnusedCells { expected, found } => {
             detail.expected = number(expected);
             detail.found = number(found);
         }
@@ -218,7 +220,12 @@ pub(crate) fn detail(error: TemplateError) -> CobraTemplateDetail {
             detail.expected = number(element);
             detail.found = number(found);
         }
-        E::NoTerms { component } | E::TermRange { component } | E::Precision { component } => {
+        E::NoTerms { component }
+        | E::TermRange { component }
+        | E::Precision { component }
+        | E::ValidityBox { component, .. }
+        | E::ValidityGrid { component, .. }
+        | E::ValidityRange { component } => {
             detail.component = number(component);
         }
         E::ObjectNumber { found, .. } => detail.value = found,
@@ -241,7 +248,11 @@ pub(crate) fn detail(error: TemplateError) -> CobraTemplateDetail {
             detail.term = number(term);
             detail.value = squared_norm;
         }
-        E::KernelLeftOut { .. } | E::MetricLeftOut { .. } | E::NoComponents => {}
+        E::ValidityCells { component, row } => {
+            detail.component = number(component);
+            detail.found = number(row);
+        }
+        E::KernelLeftOut { .. } | E::MetricLeftOut { .. } | E::NoComponents | E::CompactAngles => {}
     }
     detail
 }
@@ -254,5 +265,7 @@ const fn tag(section: Section) -> u32 {
         Section::Components => 3,
         Section::Terms => 4,
         Section::Precisions => 5,
+        Section::Validity => 6,
+        Section::Quality => 7,
     }
 }

@@ -189,6 +189,8 @@ pub struct CobraReport {
     pub decision: CobraDecision,
     /// Why.
     pub reason: CobraReason,
+    /// How many came to lie where no component speaks for them.
+    pub uncovered: u32,
 }
 
 /// What a template says of itself.
@@ -348,6 +350,7 @@ impl CobraReport {
         behind_camera: 0,
         decision: CobraDecision::Undecided,
         reason: CobraReason::NotScored,
+        uncovered: 0,
     };
 
     pub(crate) fn from_rust(report: &Report) -> Self {
@@ -361,6 +364,7 @@ impl CobraReport {
             behind_camera: report.behind_camera,
             decision,
             reason,
+            uncovered: report.uncovered,
         }
     }
 }

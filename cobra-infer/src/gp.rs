@@ -6,16 +6,22 @@
 //!
 //! # Order of summation
 //! Term i goes to accumulator i mod 8. Within an accumulator terms are added by rising i, starting
-//! from +0. The mean is m + (((a₀+a₁)+(a₂+a₃)) + ((a₄+a₅)+(a₆+a₇))). A term is wᵢ·k. This is what
-//! vector code on the host and scalar code on a controller both compute.
+//! from +0. The mean is m + (((a₀+a₁)+(a₂+a₃)) + ((a₄+a₅)+(a₆+a₇))). A term is wᵢ·k. Of compact terms the sum
+//! is multiplied by the scale before m is added. This is what vector code on the host and scalar code
+//! on a controller both compute.
 
 use crate::kernel::{Covariance, Model, Visitor};
 use crate::math::{self, Real};
 use nalgebra::{Unit, Vector3};
+use terms::Encoded;
 
+pub mod compact;
 #[cfg(test)]
 pub(crate) mod evaluations;
 mod sum;
+mod terms;
+
+pub use terms::Terms;
 
 /// How many accumulators the sum is interleaved over.
 pub const LANES: usize = 8;
@@ -25,66 +31,6 @@ pub type UnitDirection = Unit<Vector3<f32>>;
 
 /// A little-endian `f32` as it lies in a template.
 pub type Word = [u8; 4];
-
-/// The directions and weights of one component: four borrowed arrays of the same length behind each
-/// other, each a run of little-endian `f32`, at any alignment.
-///
-/// A direction lies in the coordinates of the template's metric: a unit vector, or (φ, θ, 0).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Terms<'a> {
-    /// As many as there are terms. What lies in four are not a term's words: they are four of them
-    /// only so that their number needs no check.
-    quads: &'a [[Word; 4]],
-}
-
-impl<'a> Terms<'a> {
-    #[inline]
-    pub(crate) const fn from_quads(quads: &'a [[Word; 4]]) -> Self {
-        Self { quads }
-    }
-
-    /// Of all x, all y, all z, all weights. `None` when the length is not a multiple of four.
-    #[must_use]
-    pub fn from_words(words: &'a [Word]) -> Option<Self> {
-        let (quads, rest) = words.as_chunks();
-        rest.is_empty().then_some(Self { quads })
-    }
-
-    /// How many terms there are.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.quads.len()
-    }
-
-    /// Whether there is no term.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.quads.is_empty()
-    }
-
-    /// All x, all y, all z, all weights; always some, but for the compiler, which then sees that
-    /// the four are of one length.
-    #[inline]
-    fn arrays(&self) -> Option<[&'a [Word]; 4]> {
-        let count = self.quads.len();
-        let (x, rest) = self.quads.as_flattened().split_at_checked(count)?;
-        let (y, rest) = rest.split_at_checked(count)?;
-        let (z, rest) = rest.split_at_checked(count)?;
-        let (weights, _) = rest.split_at_checked(count)?;
-        Some([x, y, z, weights])
-    }
-
-    /// The terms one by one: direction, in the metric's coordinates, and weight.
-    pub fn iter(&self) -> impl Iterator<Item = ([f32; 3], f32)> + use<'a> {
-        let read = |word: &Word| f32::from_le_bytes(*word);
-        let [x, y, z, weights] = self.arrays().unwrap_or([&[]; 4]);
-        x.iter()
-            .zip(y)
-            .zip(z)
-            .zip(weights)
-            .map(move |(((x, y), z), w)| ([read(x), read(y), read(z)], read(w)))
-    }
-}
 
 /// The hyperparameters of one component.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,9 +57,12 @@ pub fn posterior_mean(
     terms: &Terms<'_>,
     u: &UnitDirection,
 ) -> f32 {
-    let Some(query) = model.metric.coordinates([u.x, u.y, u.z]) else {
+    let Some(mut query) = model.metric.coordinates([u.x, u.y, u.z]) else {
         return f32::NAN;
     };
+    if let Encoded::Compact { .. } = terms.0 {
+        query = query.map(|coordinate| coordinate * compact::GRID);
+    }
     let sum = model.kernel.visit(
         hyperparameters.length_scale,
         hyperparameters.parameter,
@@ -122,7 +71,7 @@ pub fn posterior_mean(
     sum.map_or(f32::NAN, |sum| hyperparameters.prior_mean + sum)
 }
 
-/// Σᵢ wᵢ k(query, uᵢ).
+/// Σᵢ wᵢ k(query, uᵢ), of compact terms times their scale.
 struct WeightedSum<'a> {
     terms: &'a Terms<'a>,
     query: [f32; 3],
@@ -135,7 +84,12 @@ impl Visitor<f32> for WeightedSum<'_> {
         let Self { terms, query } = self;
         #[cfg(test)]
         let kernel = evaluations::Counted(kernel);
-        sum::weighted_sum(&kernel, terms, query)
+        match terms.0 {
+            Encoded::Exact(quads) => sum::weighted_sum(&kernel, terms::exact(quads), query),
+            Encoded::Compact { scale, bytes } => {
+                scale * sum::weighted_sum(&kernel, terms::compact(bytes), query)
+            }
+        }
     }
 }
 

@@ -96,6 +96,10 @@ pub struct Report {
     pub points: u32,
     /// How many of them came to lie behind the camera.
     pub behind_camera: u32,
+    /// How many came to lie in front of it, at finite coordinates, where no component speaks for them:
+    /// of a template with validity, mostly where nothing of the object is. Their likelihood is 0, and
+    /// their contribution to the threshold is the largest of all components'.
+    pub uncovered: u32,
     /// The sum of the weights before normalisation.
     pub weight_sum: f32,
     /// The share of the points whose residual is at most δ in magnitude, unweighted.
@@ -130,6 +134,7 @@ pub struct Scorer<'t, const COMPONENTS: usize> {
     weighty: u32,
     inliers: u32,
     behind_camera: u32,
+    uncovered: u32,
     doubt: Option<Doubt>,
 }
 
@@ -160,6 +165,7 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
             weighty: 0,
             inliers: 0,
             behind_camera: 0,
+            uncovered: 0,
             doubt: None,
         });
         if let Ok(scorer) = &mut result {
@@ -200,7 +206,11 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
             self.behind_camera = self.behind_camera.saturating_add(1);
             None
         } else {
-            self.mixture.evaluate(&back.point)
+            let found = self.mixture.evaluate(&back.point);
+            if found.is_none() && back.point.iter().all(|x| x.is_finite()) {
+                self.uncovered = self.uncovered.saturating_add(1);
+            }
+            found
         };
         let likelihood = found.map_or(0.0, |found| found.likelihood);
         if found.is_some_and(|found| math::abs(found.residual()) <= self.delta) {
@@ -231,6 +241,7 @@ impl<'t, const COMPONENTS: usize> Scorer<'t, COMPONENTS> {
             threshold,
             points: self.points,
             behind_camera: self.behind_camera,
+            uncovered: self.uncovered,
             weight_sum,
             inlier_share: match self.points {
                 0 => 0.0,

@@ -57,7 +57,7 @@ pub(crate) fn pose_scored(report: &Report) {
     #[cfg(feature = "log")]
     log::debug!(
         target: TARGET,
-        "pose: {}, {}; confidence {}, threshold {}, points {}, behind the camera {}, weight {}, \
+        "pose: {}, {}; confidence {}, threshold {}, points {}, behind the camera {}, uncovered {}, weight {}, \
          within the tolerance {}",
         report.decision.name(),
         report.decision.reason(),
@@ -65,6 +65,7 @@ pub(crate) fn pose_scored(report: &Report) {
         report.threshold,
         report.points,
         report.behind_camera,
+        report.uncovered,
         report.weight_sum,
         report.inlier_share
     );

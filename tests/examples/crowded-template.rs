@@ -3,7 +3,7 @@
 //! `cargo run -p cobra-tests --example crowded-template -- COMPONENTS FILE`.
 
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
-use cobra_infer::template::{ComponentSource, TemplateSource, encode, encoded_len};
+use cobra_infer::template::{ComponentSource, TemplateSource, TermsSource, encode, encoded_len};
 use cobra_infer::{Exponent, Kernel, Model, Unit};
 use nalgebra::Vector3;
 use std::error::Error;
@@ -22,8 +22,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             parameter: 1.0,
             prior_mean: 10.0,
         },
-        directions: &directions,
-        weights: &[0.25],
+        terms: TermsSource::Exact {
+            directions: &directions,
+            weights: &[0.25],
+        },
+        validity: None,
     };
     let source = TemplateSource {
         name: "crowd",
@@ -33,6 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         diameter: 24.0,
         model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
         components: &vec![component; components],
+        quality: None,
     };
     let mut bytes = vec![0; encoded_len(&source)];
     let length = encode(&source, &mut bytes)?;

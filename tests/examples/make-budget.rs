@@ -5,7 +5,9 @@
 //! each, and the differences of what they cost are the cost of that thing.
 
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
-use cobra_infer::template::{ComponentSource, Precision, TemplateSource, encode, encoded_len};
+use cobra_infer::template::{
+    ComponentSource, Precision, TemplateSource, TermsSource, encode, encoded_len,
+};
 use cobra_infer::{Exponent, Kernel, Model, Unit};
 use cobra_tests::points_file::points_file;
 use nalgebra::Vector3;
@@ -45,8 +47,11 @@ fn main() -> Result<(), Box<dyn Error>> {
                     parameter: exponent.fixed().unwrap_or(1.0),
                     prior_mean: 40.0,
                 },
-                directions: &directions,
-                weights: &weights,
+                terms: TermsSource::Exact {
+                    directions: &directions,
+                    weights: &weights,
+                },
+                validity: None,
             })
             .collect();
         let source = TemplateSource {
@@ -57,6 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             diameter: 90.0,
             model: Model::chord(Kernel::RationalQuadratic(exponent)),
             components: &components,
+            quality: None,
         };
         let mut bytes = vec![0; encoded_len(&source)];
         let length = encode(&source, &mut bytes)?;

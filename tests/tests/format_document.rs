@@ -4,7 +4,7 @@
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
 use cobra_infer::template::{
     ComponentSource, HEADER_LENGTH, MAGIC, NAME_CAPACITY, PRECISION_LENGTH, RECORD_LENGTH,
-    TemplateSource, VERSION, encode, encoded_len, peek_len,
+    TemplateSource, TermsSource, VERSION, encode, encoded_len, peek_len,
 };
 use cobra_infer::{Exponent, Kernel, Model, Template, Unit, tolerance};
 use nalgebra::Vector3;
@@ -23,8 +23,11 @@ fn example() -> Vec<u8> {
             parameter: 1.0,
             prior_mean: 10.0,
         },
-        directions: &directions,
-        weights: &[0.25, -0.5],
+        terms: TermsSource::Exact {
+            directions: &directions,
+            weights: &[0.25, -0.5],
+        },
+        validity: None,
     };
     let source = TemplateSource {
         name: "nut",
@@ -34,6 +37,7 @@ fn example() -> Vec<u8> {
         diameter: 24.0,
         model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
         components: &[component],
+        quality: None,
     };
     let mut bytes = vec![0; encoded_len(&source)];
     let length = encode(&source, &mut bytes).unwrap();

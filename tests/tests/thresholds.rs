@@ -4,7 +4,7 @@
 //! the reference point has exactly the residual it was moved by.
 
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
-use cobra_infer::template::{ComponentSource, TemplateSource, encode, encoded_len};
+use cobra_infer::template::{ComponentSource, TemplateSource, TermsSource, encode, encoded_len};
 use cobra_infer::{
     Camera, Correspondence, Exponent, Kernel, Likelihood, Model, Pose, Report, Scorer, Settings,
     Sigma, Template, Threshold, Unit, bound,
@@ -30,8 +30,11 @@ fn sphere() -> Vec<u8> {
             parameter: 1.0,
             prior_mean: RADIUS,
         },
-        directions: &direction,
-        weights: &[0.0],
+        terms: TermsSource::Exact {
+            directions: &direction,
+            weights: &[0.0],
+        },
+        validity: None,
     };
     let source = TemplateSource {
         name: "sphere",
@@ -41,6 +44,7 @@ fn sphere() -> Vec<u8> {
         diameter: 2.0 * RADIUS,
         model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
         components: &[component],
+        quality: None,
     };
     let mut bytes = vec![0; encoded_len(&source)];
     let length = encode(&source, &mut bytes).unwrap();

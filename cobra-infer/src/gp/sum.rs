@@ -1,40 +1,57 @@
 //! Σᵢ wᵢ k(query, uᵢ), in the order that the format prescribes.
 //!
 //! The order is [`crate::gp`]'s; what is owned here is how the compilers are led to do it fast, which
-//! takes two shapes of the same sum. A host goes over the terms once and makes vectors of four lanes
+//! takes some shapes of the same sum. A host goes over the terms once and makes vectors of four lanes
 //! of the eight accumulators. A controller keeps all of four terms in registers: with eight at a time
 //! it loads more words ahead than it has registers for, and a term costs two instructions more. Hence
 //! there each half of the accumulators goes over the terms by itself, and the four are written out: a
 //! loop over them is unrolled at `opt-level = 3` alone.
 
-use super::{LANES, Terms, Word};
+use super::LANES;
+use super::terms::{Arrays, Number};
 use crate::kernel::Covariance;
 
 /// One array in whole rounds of the accumulators.
-type Rounds<'a> = &'a [[Word; LANES]];
+type Rounds<'a, N> = &'a [[N; LANES]];
 
 /// The sum over all terms.
 #[inline]
-pub(super) fn weighted_sum<K: Covariance<f32>>(
+pub(super) fn weighted_sum<K: Covariance<f32>, C: Number, W: Number>(
     kernel: &K,
-    terms: &Terms<'_>,
+    terms: Option<Arrays<'_, C, W>>,
     query: [f32; 3],
 ) -> f32 {
-    // One by one: a `map` over the four is a loop at `opt-level = "s"`.
-    let Some([xs, ys, zs, ws]) = terms.arrays() else {
+    let Some(terms) = terms else {
         return f32::NAN;
     };
+    let lanes = if cfg!(target_os = "none") && size_of::<C>() < size_of::<f32>() {
+        one_by_one(kernel, terms, query)
+    } else {
+        in_rounds(kernel, terms, query)
+    };
+    let [a0, a1, a2, a3, a4, a5, a6, a7] = lanes;
+    ((a0 + a1) + (a2 + a3)) + ((a4 + a5) + (a6 + a7))
+}
+
+/// Whole rounds of the accumulators, then the rest.
+#[inline(always)]
+fn in_rounds<K: Covariance<f32>, C: Number, W: Number>(
+    kernel: &K,
+    terms: Arrays<'_, C, W>,
+    query: [f32; 3],
+) -> [f32; LANES] {
+    // One by one: a `map` over the four is a loop at `opt-level = "s"`.
+    let [xs, ys, zs] = terms.coordinates;
     let (xs, x_rest) = xs.as_chunks();
     let (ys, y_rest) = ys.as_chunks();
     let (zs, z_rest) = zs.as_chunks();
-    let (ws, w_rest) = ws.as_chunks();
-    let mut lanes = whole_rounds(kernel, [xs, ys, zs, ws], query);
+    let (ws, w_rest) = terms.weights.as_chunks();
+    let mut lanes = whole_rounds(kernel, [xs, ys, zs], ws, query);
     let rest = x_rest.iter().zip(y_rest).zip(z_rest).zip(w_rest);
     for (lane, (((x, y), z), w)) in lanes.iter_mut().zip(rest) {
-        *lane += term(kernel, query, [x, y, z, w]);
+        *lane += term(kernel, query, [x, y, z], w);
     }
-    let [a0, a1, a2, a3, a4, a5, a6, a7] = lanes;
-    ((a0 + a1) + (a2 + a3)) + ((a4 + a5) + (a6 + a7))
+    lanes
 }
 
 /// The accumulators after the terms that fill whole rounds of them.
@@ -43,29 +60,32 @@ pub(super) fn weighted_sum<K: Covariance<f32>>(
 /// the compiler makes vectors of two lanes where four fit, and the loop takes three times as long.
 #[cfg_attr(not(target_os = "none"), inline(never))]
 #[cfg_attr(target_os = "none", inline)]
-fn whole_rounds<K: Covariance<f32>>(
+fn whole_rounds<K: Covariance<f32>, C: Number, W: Number>(
     kernel: &K,
-    rounds: [Rounds<'_>; 4],
+    coordinates: [Rounds<'_, C>; 3],
+    weights: Rounds<'_, W>,
     query: [f32; 3],
 ) -> [f32; LANES] {
     if cfg!(target_os = "none") {
-        in_halves(kernel, rounds, query)
+        in_halves(kernel, coordinates, weights, query)
     } else {
-        at_once(kernel, rounds, query)
+        at_once(kernel, coordinates, weights, query)
     }
 }
 
 /// For hosts. All of a round is read before any of it is computed with: a kernel that calls a
 /// function then has the distances of a round ready before the first call.
 #[inline(always)]
-fn at_once<K: Covariance<f32>>(
+fn at_once<K: Covariance<f32>, C: Number, W: Number>(
     kernel: &K,
-    [xs, ys, zs, ws]: [Rounds<'_>; 4],
+    [xs, ys, zs]: [Rounds<'_, C>; 3],
+    ws: Rounds<'_, W>,
     query: [f32; 3],
 ) -> [f32; LANES] {
     let mut lanes = [0.0; LANES];
     for (((x, y), z), w) in xs.iter().zip(ys).zip(zs).zip(ws) {
-        let [x, y, z, w] = [x, y, z, w].map(|words| words.map(f32::from_le_bytes));
+        let [x, y, z] = [x, y, z].map(|numbers| numbers.map(C::read));
+        let w = w.map(W::read);
         for ((((lane, x), y), z), w) in lanes.iter_mut().zip(x).zip(y).zip(z).zip(w) {
             *lane += w * kernel.between(query, [x, y, z]);
         }
@@ -73,73 +93,146 @@ fn at_once<K: Covariance<f32>>(
     lanes
 }
 
-/// For controllers.
+/// For controllers: the halves one after the other, each with a loop of its own.
 #[inline(always)]
-fn in_halves<K: Covariance<f32>>(
+fn in_halves<K: Covariance<f32>, C: Number, W: Number>(
     kernel: &K,
-    rounds: [Rounds<'_>; 4],
+    coordinates: [Rounds<'_, C>; 3],
+    weights: Rounds<'_, W>,
     query: [f32; 3],
 ) -> [f32; LANES] {
-    let [a0, a1, a2, a3] = four(kernel, rounds, query, |[a, b, c, d, ..]| [a, b, c, d]);
-    let [a4, a5, a6, a7] = four(kernel, rounds, query, |[.., a, b, c, d]| [a, b, c, d]);
+    let [a0, a1, a2, a3] = four::<false, _, _, _>(kernel, coordinates, weights, query);
+    let [a4, a5, a6, a7] = four::<true, _, _, _>(kernel, coordinates, weights, query);
     [a0, a1, a2, a3, a4, a5, a6, a7]
 }
 
-/// Four accumulators: of those words that `pick` takes from a round.
+/// Four accumulators: the first or the last of a round.
 #[inline(always)]
-fn four<K: Covariance<f32>>(
+fn four<const LAST: bool, K: Covariance<f32>, C: Number, W: Number>(
     kernel: &K,
-    [xs, ys, zs, ws]: [Rounds<'_>; 4],
+    [xs, ys, zs]: [Rounds<'_, C>; 3],
+    ws: Rounds<'_, W>,
     query: [f32; 3],
-    pick: impl Fn(&[Word; LANES]) -> [&Word; 4],
 ) -> [f32; 4] {
-    let [mut a, mut b, mut c, mut d] = [0.0; 4];
+    let mut sums = [0.0; 4];
     for (((x, y), z), w) in xs.iter().zip(ys).zip(zs).zip(ws) {
-        let [x0, x1, x2, x3] = pick(x);
-        let [y0, y1, y2, y3] = pick(y);
-        let [z0, z1, z2, z3] = pick(z);
-        let [w0, w1, w2, w3] = pick(w);
-        a += term(kernel, query, [x0, y0, z0, w0]);
-        b += term(kernel, query, [x1, y1, z1, w1]);
-        c += term(kernel, query, [x2, y2, z2, w2]);
-        d += term(kernel, query, [x3, y3, z3, w3]);
+        let (x, y) = (half::<LAST, _>(x), half::<LAST, _>(y));
+        let (z, w) = (half::<LAST, _>(z), half::<LAST, _>(w));
+        add_four(kernel, query, &mut sums, x, y, z, w);
     }
-    [a, b, c, d]
+    sums
+}
+
+/// Of a round, the first four or the last.
+#[inline(always)]
+fn half<const LAST: bool, N>(round: &[N; LANES]) -> [&N; 4] {
+    let [a, b, c, d, e, f, g, h] = round;
+    if LAST { [e, f, g, h] } else { [a, b, c, d] }
+}
+
+/// For controllers, of compact terms: the accumulators stay in memory, and each term goes to its own.
+/// Four terms at a time take more registers than there are once numbers are converted, so that a term
+/// is no faster and the code four times as long.
+#[inline(always)]
+fn one_by_one<K: Covariance<f32>, C: Number, W: Number>(
+    kernel: &K,
+    terms: Arrays<'_, C, W>,
+    query: [f32; 3],
+) -> [f32; LANES] {
+    let mut lanes = [0.0; LANES];
+    let [xs, ys, zs] = terms.coordinates;
+    let terms = xs.iter().zip(ys).zip(zs).zip(terms.weights);
+    for (index, (((x, y), z), w)) in terms.enumerate() {
+        if let Some(lane) = lanes.get_mut(index % LANES) {
+            *lane += term(kernel, query, [x, y, z], w);
+        }
+    }
+    lanes
+}
+
+/// Written out: a loop over them is unrolled at `opt-level = 3` alone.
+#[inline(always)]
+fn add_four<K: Covariance<f32>, C: Number, W: Number>(
+    kernel: &K,
+    query: [f32; 3],
+    [a, b, c, d]: &mut [f32; 4],
+    [x0, x1, x2, x3]: [&C; 4],
+    [y0, y1, y2, y3]: [&C; 4],
+    [z0, z1, z2, z3]: [&C; 4],
+    [w0, w1, w2, w3]: [&W; 4],
+) {
+    *a += term(kernel, query, [x0, y0, z0], w0);
+    *b += term(kernel, query, [x1, y1, z1], w1);
+    *c += term(kernel, query, [x2, y2, z2], w2);
+    *d += term(kernel, query, [x3, y3, z3], w3);
 }
 
 #[inline(always)]
-fn term<K: Covariance<f32>>(kernel: &K, query: [f32; 3], [x, y, z, w]: [&Word; 4]) -> f32 {
-    let read = |word: &Word| f32::from_le_bytes(*word);
-    read(w) * kernel.between(query, [read(x), read(y), read(z)])
+fn term<K: Covariance<f32>, C: Number, W: Number>(
+    kernel: &K,
+    query: [f32; 3],
+    [x, y, z]: [&C; 3],
+    w: &W,
+) -> f32 {
+    w.read() * kernel.between(query, [x.read(), y.read(), z.read()])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gp::Word;
     use crate::kernel::RationalQuadraticHalf;
     use std::vec::Vec;
 
     #[test]
-    fn both_shapes_have_the_same_bits() {
+    fn all_shapes_have_the_same_bits() {
         let kernel = RationalQuadraticHalf::new(0.7);
         let mut state = 1_u32;
         let mut number = || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (state >> 8) as f32 / (1 << 23) as f32 - 1.0
         };
+        let query = [0.6, -0.8, 0.1];
         for count in 0..20 {
             let mut array = || -> Vec<[Word; LANES]> {
                 let words = core::iter::repeat_with(|| number().to_le_bytes());
                 let words: Vec<Word> = words.take(count * LANES).collect();
                 words.as_chunks().0.to_vec()
             };
-            let arrays = [array(), array(), array(), array()];
-            let rounds = arrays.each_ref().map(Vec::as_slice);
-            let query = [0.6, -0.8, 0.1];
-            assert_eq!(
-                at_once(&kernel, rounds, query).map(f32::to_bits),
-                in_halves(&kernel, rounds, query).map(f32::to_bits),
+            let (x, y, z, w) = (array(), array(), array(), array());
+            agree(&kernel, [&x, &y, &z], &w, query);
+            // Bytes of the same numbers, as a compact run would have them.
+            let bytes = |words: &[[Word; LANES]]| -> Vec<[u8; LANES]> {
+                words.iter().map(|round| round.map(|[b, ..]| b)).collect()
+            };
+            let halves: Vec<[[u8; 2]; LANES]> = w
+                .iter()
+                .map(|round| round.map(|[b, c, ..]| [b, c]))
+                .collect();
+            let steps = query.map(|coordinate| coordinate * 127.0);
+            agree(
+                &kernel,
+                [&bytes(&x), &bytes(&y), &bytes(&z)],
+                &halves,
+                steps,
             );
         }
+    }
+
+    fn agree<K: Covariance<f32>, C: Number, W: Number>(
+        kernel: &K,
+        coordinates: [Rounds<'_, C>; 3],
+        weights: Rounds<'_, W>,
+        query: [f32; 3],
+    ) {
+        let expected = at_once(kernel, coordinates, weights, query).map(f32::to_bits);
+        let halves = in_halves(kernel, coordinates, weights, query);
+        assert_eq!(halves.map(f32::to_bits), expected);
+        let terms = Arrays {
+            coordinates: coordinates.map(<[[C; LANES]]>::as_flattened),
+            weights: weights.as_flattened(),
+        };
+        let single = one_by_one(kernel, terms, query);
+        assert_eq!(single.map(f32::to_bits), expected);
     }
 }

@@ -3,20 +3,28 @@
 //! Owns which component speaks for a point, or how much each has to say, and how probable they find
 //! it. Averaging over points is the scorer's ([`mod@crate::score`]).
 //!
+//! A component of a template with validity speaks for a point P only if the cell of P − C_k is valid and
+//! the point it predicts, C_k + μ·u, lies in its box; what speaks for no point is as if it were not
+//! there. Without validity every component speaks that has a direction and a finite mean.
+//!
 //! Components are near or far by (P − C_k)ᵀQ_k(P − C_k), the exponent of Eq. 8: with the precisions
 //! Q_k that expectation maximisation learned, or with the identity in the object's unit sphere,
 //! as the paper has it for k-means, which makes it the Euclidean distance.
 
+#[cfg(test)]
+mod pruning;
+mod reach;
 mod soft;
 
 use crate::bound::{self, Threshold};
 use crate::error::ScoreError;
 use crate::gp;
 use crate::math::{self, Real, SQRT_TWO_PI};
-use crate::template::{Stored, Template};
+use crate::template::{Stored, Template, Validity, Window};
 use crate::tolerance;
 use heapless::Vec;
 use nalgebra::Point3;
+use reach::Reach;
 use soft::Blend;
 
 /// Which likelihood a residual e under standard deviation σ has.
@@ -42,19 +50,22 @@ impl Likelihood {
 
 /// Which component speaks for a point.
 ///
-/// Nearest is the safer choice: a component that is asked outside its own patch extrapolates, so
-/// the maximum over all of them finds an excuse for more wrong points.
+/// Without validity nearest is the safer choice: a component that is asked outside its own patch
+/// extrapolates, so the maximum over all of them finds an excuse for more wrong points. With validity
+/// none is asked there, and the maximum is the better one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Assignment {
     /// The one whose reference point is nearest: that of the largest weight in Eq. 8; the first of
-    /// equals.
+    /// equals. With validity, of those that are valid in the point's direction; if what it predicts
+    /// leaves its box, none.
     Nearest,
-    /// The one that finds the point most probable (Eq. 10); the first of equals.
+    /// The one that finds the point most probable (Eq. 10), of those that speak for it; the first of
+    /// equals.
     Maximum,
     /// All of them, mixed with the weights of Eq. 8: p(P) = Σ_k π_k q̂_k (Eq. 6). With the identity
     /// for Q_k the weights hardly differ over an object, so that components which extrapolate
-    /// dilute the one that knows.
+    /// dilute the one that knows. With validity, of those that speak for the point.
     Soft,
 }
 
@@ -109,10 +120,15 @@ impl Settings {
         }
     }
 
-    /// [`Settings::with_delta`] with the tolerance in millimetres, whatever the template's unit.
+    /// [`Settings::with_delta`] with the tolerance in millimetres, whatever the template's unit, and
+    /// the maximum where the template has validity.
     #[must_use]
     pub fn for_template(template: &Template<'_>, delta_millimetres: f32) -> Self {
-        Self::with_delta(delta_millimetres / template.unit().millimetres())
+        let mut settings = Self::with_delta(delta_millimetres / template.unit().millimetres());
+        if template.has_validity() {
+            settings.assignment = Assignment::Maximum;
+        }
+        settings
     }
 
     fn check(&self) -> Result<(), ScoreError> {
@@ -182,6 +198,7 @@ pub struct Mixture<'t, const COMPONENTS: usize> {
     assignment: Assignment,
     smallest_distance: f32,
     largest_threshold: f32,
+    reach: Reach,
     prepared: Vec<Prepared, COMPONENTS>,
 }
 
@@ -220,6 +237,7 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
             assignment: settings.assignment,
             smallest_distance: tolerance::NO_DIRECTION * template.radius(),
             largest_threshold: 0.0,
+            reach: Reach::new(template),
             prepared: Vec::new(),
         }
     }
@@ -245,16 +263,22 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
                 log_sigma: math::ln(sigma),
                 threshold,
             };
+            let least_cost = self.cost(0.0, &prepared);
+            self.reach.take(component.centre(), sigma, least_cost);
             // There is room for all of them.
             let _ = self.prepared.push(prepared);
         }
+        if self.template.has_validity() && self.assignment == Assignment::Maximum {
+            self.reach.prune();
+        }
     }
 
-    /// The component that speaks for `point`, and what it says; `None` when none can: the point
-    /// lies on its reference point or infinitely far away.
+    /// The component that speaks for `point`, and what it says; `None` when none does: the point
+    /// lies on its reference point or infinitely far away, or where no component is valid.
     ///
     /// The most probable component has the smallest e²/2σ², plus ln σ for the density, so that one
-    /// exponential a point is enough unless all are mixed.
+    /// exponential a point is enough unless all are mixed. Which components are passed over, and in
+    /// which order the others are asked, does not show in the answer.
     // One loop for all assignments: with one for each, none would contain the Gaussian process, and
     // the calls and what they return cost a controller a tenth of a point.
     #[must_use]
@@ -272,27 +296,65 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
                 0..self.prepared.len()
             }
         };
+        let validities = self.template.validities();
         let mut best: Option<(f32, usize, Prediction)> = None;
-        for index in candidates {
-            let component = self.template.stored_at(index)?;
-            let prepared = self.prepared.get(index)?;
-            let mut excess = 0.0;
-            if let Some(blend) = &mut blend {
-                excess = blend.excess(self.template.exponent(index, at));
-                if !blend.weigh(excess, prepared) {
+        let mut asked = Window::NOTHING;
+        let mut reach = self.reach.first;
+        loop {
+            let window = match validities {
+                Some(_) => self.reach.window(at, reach),
+                None => asked,
+            };
+            for index in candidates.clone() {
+                let validity = validities.and_then(|all| all.get(index));
+                if let Some(validity) = &validity
+                    && (!validity.meets(window) || validity.meets(asked))
+                {
                     continue;
                 }
+                let component = self.template.stored_at(index)?;
+                let offset = component.offset(at);
+                if let Some(validity) = &validity
+                    && !validity.contains_direction(offset)
+                {
+                    continue;
+                }
+                let prepared = self.prepared.get(index)?;
+                let (mut excess, mut weight) = (0.0, 0.0);
+                if let Some(blend) = &blend {
+                    excess = blend.excess(self.template.exponent(index, at));
+                    weight = math::exp(-excess);
+                    if !(weight > 0.0) {
+                        continue;
+                    }
+                }
+                let prediction = self.predict(component, prepared, offset, validity);
+                if let Some(blend) = &mut blend
+                    && (prediction.is_some() || validity.is_none())
+                {
+                    blend.weigh(weight, prepared);
+                }
+                let Some(prediction) = prediction else {
+                    continue;
+                };
+                if let Some(blend) = &mut blend {
+                    blend.add(self.likelihood, excess, &prediction, prepared);
+                }
+                let cost = excess + self.cost(prediction.half_square, prepared);
+                if best.as_ref().is_none_or(|(least, first, _)| {
+                    cost < *least || (cost == *least && index < *first)
+                }) {
+                    best = Some((cost, index, prediction));
+                }
             }
-            let Some(prediction) = self.predict(component, prepared, at) else {
-                continue;
-            };
-            if let Some(blend) = &mut blend {
-                blend.add(self.likelihood, excess, &prediction, prepared);
+            if reach == f32::INFINITY {
+                break;
             }
-            let cost = excess + self.cost(&prediction, prepared);
-            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-                best = Some((cost, index, prediction));
+            let needed = self.reach.needed(best.as_ref().map(|(cost, ..)| *cost));
+            if needed <= reach {
+                break;
             }
+            (asked, reach) = (window, needed);
         }
         let (_, component, prediction) = best?;
         let prepared = self.prepared.get(component)?;
@@ -321,10 +383,10 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
     }
 
     /// e²/2σ², plus ln σ for the density: the less, the more probable.
-    fn cost(&self, prediction: &Prediction, prepared: &Prepared) -> f32 {
+    fn cost(&self, half_square: f32, prepared: &Prepared) -> f32 {
         match self.likelihood {
-            Likelihood::Peak => prediction.half_square,
-            Likelihood::Density => prediction.half_square + prepared.log_sigma,
+            Likelihood::Peak => half_square,
+            Likelihood::Density => half_square + prepared.log_sigma,
         }
     }
 
@@ -333,13 +395,21 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
         &self,
         component: Stored<'t>,
         prepared: &Prepared,
-        point: [f32; 3],
+        offset: [f32; 3],
+        validity: Option<Validity<'t>>,
     ) -> Option<Prediction> {
-        let offset = component.offset(point);
         let (direction, distance) = gp::direction_and_length(offset, self.smallest_distance)?;
         let predicted = component.posterior_mean(self.template.model(), &direction);
         if !predicted.is_finite() {
             return None;
+        }
+        if let Some(validity) = validity {
+            let [x, y, z] = component.centre();
+            let [dx, dy, dz] = [direction.x, direction.y, direction.z].map(|u| predicted * u);
+            let position = self.reach.position([x + dx, y + dy, z + dz]);
+            if !validity.meets(position) {
+                return None;
+            }
         }
         let scaled = (distance - predicted) * prepared.inverse_sigma;
         Some(Prediction {

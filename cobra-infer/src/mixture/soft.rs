@@ -3,7 +3,9 @@
 //! Owns the order in which it is added, which is part of the template format. The least exponent is
 //! taken from all of them, which cancels in the quotient and keeps it from being 0/0: with
 //! xₖ = a_k − min a, the likelihood is (Σ exp(−(xₖ + e²/2σ²))·scale) / Σ exp(−xₖ), both sums from +0
-//! by rising k over the components whose exp(−xₖ) is not 0, the others not being asked. Far from the
+//! by rising k over the components whose exp(−xₖ) is not 0, the others not being asked. With validity
+//! the least exponent is that of the components which are valid in the point's direction, and both sums
+//! go over those that speak for the point. Far from the
 //! object, where exponents exceed some 10⁶, `f32` rounds their differences and with them the weights.
 
 use super::{Likelihood, Prediction, Prepared};
@@ -20,12 +22,13 @@ pub(super) struct Blend {
 }
 
 impl Blend {
-    /// Of the components around a point; `None` where none is finitely near.
+    /// Of the components around a point, those that are valid in its direction; `None` where none is
+    /// finitely near.
     pub(super) fn over(template: &Template<'_>, at: [f32; 3]) -> Option<Self> {
         let mut least = f32::INFINITY;
         for index in 0..template.component_count() {
             let exponent = template.exponent(index, at);
-            if exponent < least {
+            if exponent < least && template.is_valid_towards(index, at) {
                 least = exponent;
             }
         }
@@ -42,15 +45,10 @@ impl Blend {
         exponent - self.least
     }
 
-    /// Takes exp(−xₖ) into the sums; whether the component has a weight, and so is to be asked.
-    pub(super) fn weigh(&mut self, excess: f32, prepared: &Prepared) -> bool {
-        let weight = math::exp(-excess);
-        let heard = weight > 0.0;
-        if heard {
-            self.weights += weight;
-            self.thresholds += weight * prepared.threshold;
-        }
-        heard
+    /// Takes exp(−xₖ) into the sums.
+    pub(super) fn weigh(&mut self, weight: f32, prepared: &Prepared) {
+        self.weights += weight;
+        self.thresholds += weight * prepared.threshold;
     }
 
     /// Takes the component's answer into the sum.

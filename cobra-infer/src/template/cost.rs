@@ -51,7 +51,9 @@ mod tests {
     use crate::gp::{Hyperparameters, UnitDirection, evaluations};
     use crate::kernel::{Kernel, Model};
     use crate::mixture::{Mixture, Settings};
-    use crate::template::{ComponentSource, Precision, TemplateSource, encode, encoded_len};
+    use crate::template::{
+        ComponentSource, Precision, TemplateSource, TermsSource, encode, encoded_len,
+    };
     use crate::unit::Unit;
     use nalgebra::{Point3, Vector3};
     use proptest::prelude::*;
@@ -82,8 +84,11 @@ mod tests {
                     parameter: kernel.fixed_parameter().unwrap_or(0.8),
                     prior_mean: 10.0,
                 },
-                directions: &directions[..terms],
-                weights: &weights[..terms],
+                terms: TermsSource::Exact {
+                    directions: &directions[..terms],
+                    weights: &weights[..terms],
+                },
+                validity: None,
             })
             .collect();
         let source = TemplateSource {
@@ -94,6 +99,7 @@ mod tests {
             diameter: 100.0,
             model: Model::chord(kernel),
             components: &components,
+            quality: None,
         };
         let mut bytes = vec![0; encoded_len(&source)];
         let length = encode(&source, &mut bytes).unwrap();

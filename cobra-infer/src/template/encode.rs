@@ -4,101 +4,64 @@
 //! validated, so that no file is made that a controller would refuse.
 
 use super::encode_error::EncodeError;
+use super::encode_validity::{self, Cells};
 use super::error::Section;
+use super::source::{self, ComponentSource, TemplateSource, TermsSource};
+use super::validate;
 use super::wire::{
-    self, HEADER_LENGTH, Header, NAME_CAPACITY, ObjectSection, PRECISION_LENGTH, RECORD_LENGTH,
-    REQUIRED, RecordsSection, SECTION_HEADER_LENGTH, SectionHeader, TermEncoding, TermsSection,
+    self, HEADER_LENGTH, Header, ObjectSection, PRECISION_LENGTH, QualitySection, RECORD_LENGTH,
+    RecordsSection, SECTION_HEADER_LENGTH, SectionHeader, TermEncoding, TermsSection,
+    VALIDITY_LENGTH, ValiditySection,
 };
-use super::{Precision, validate};
-use crate::gp::{Hyperparameters, UnitDirection};
-use crate::kernel::Model;
-use crate::unit::Unit;
+use crate::gp::Word;
+use crate::gp::compact::TERM_LENGTH;
 use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
-
-/// The content of a template, borrowed from whoever trained it.
-#[derive(Clone, Copy, Debug)]
-pub struct TemplateSource<'a> {
-    /// The object's name, at most [`NAME_CAPACITY`] bytes.
-    pub name: &'a str,
-    /// The unit of every length.
-    pub unit: Unit,
-    /// Centre of the bounding sphere.
-    pub centre: [f32; 3],
-    /// Radius of the bounding sphere.
-    pub radius: f32,
-    /// Largest distance between two points of the object.
-    pub diameter: f32,
-    /// Metric and covariance function.
-    pub model: Model,
-    /// The components, in the order in which the scorer visits them.
-    pub components: &'a [ComponentSource<'a>],
-}
-
-/// The content of one component.
-#[derive(Clone, Copy, Debug)]
-pub struct ComponentSource<'a> {
-    /// C_k.
-    pub centre: [f32; 3],
-    /// σ̂_k.
-    pub sigma_hat: f32,
-    /// Q_k, in 1/unit²: of all components or, for the identity in the unit sphere, of none.
-    pub precision: Option<Precision>,
-    /// The hyperparameters that the mean needs.
-    pub hyperparameters: Hyperparameters,
-    /// The directions, as many as weights: unit vectors, which are written in the metric's
-    /// coordinates.
-    pub directions: &'a [UnitDirection],
-    /// The weights K⁻¹(d − m), times the signal variance.
-    pub weights: &'a [f32],
-}
 
 /// An upper bound of the bytes that [`encode`] writes, tight to a few dozen.
 #[must_use]
 pub fn encoded_len(source: &TemplateSource<'_>) -> usize {
-    // A varint has at most 5 bytes, an enum 1 to 2; the object section holds 5 floats.
-    let sections = 5 * SECTION_HEADER_LENGTH + (6 + source.name.len() + 2 + 5 * 4) + 6 + 8 + 7 + 8;
-    let terms: usize = source.components.iter().map(|c| c.weights.len()).sum();
-    HEADER_LENGTH
+    // A varint has at most 5 bytes, an enum 1 to 2; the object section holds 5 floats, the quality
+    // section 3.
+    let sections =
+        7 * SECTION_HEADER_LENGTH + (6 + source.name.len() + 2 + 5 * 4) + (6 + 8 + 7 + 8 + 13 + 17);
+    let components = source.components.iter().map(|component| {
+        RECORD_LENGTH
+            .saturating_add(PRECISION_LENGTH)
+            .saturating_add(run_length(&component.terms))
+            .saturating_add(component.validity.map_or(0, |validity| {
+                VALIDITY_LENGTH.saturating_add(encode_validity::run_length(validity))
+            }))
+    });
+    let unexplained = source
+        .quality
+        .map_or(0, |quality| quality.unexplained.len());
+    components
+        .fold(HEADER_LENGTH, usize::saturating_add)
         .saturating_add(sections)
-        .saturating_add(
-            source
-                .components
-                .len()
-                .saturating_mul(RECORD_LENGTH + PRECISION_LENGTH),
-        )
-        .saturating_add(terms.saturating_mul(16))
+        .saturating_add(unexplained.saturating_mul(2))
+}
+
+/// The bytes of a component's terms.
+fn run_length(terms: &TermsSource<'_>) -> usize {
+    let (_, count) = terms.lengths();
+    match terms {
+        TermsSource::Exact { .. } => count.saturating_mul(16),
+        TermsSource::Compact { .. } => count
+            .saturating_mul(TERM_LENGTH)
+            .saturating_add(size_of::<Word>()),
+    }
 }
 
 /// Writes a template to the start of `out` and returns its length.
 ///
 /// # Errors
-/// [`EncodeError`]: a name that is too long, unequal numbers of directions and weights, a buffer
-/// that is too small, or content that [`super::Template::from_bytes`] would refuse.
+/// [`EncodeError`]: a name that is too long, unequal numbers of directions and weights, components
+/// that differ in what they have, a grid of the wrong size, a buffer that is too small, or content
+/// that [`super::Template::from_bytes`] would refuse.
 pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, EncodeError> {
-    if source.name.len() > NAME_CAPACITY {
-        return Err(EncodeError::Name {
-            capacity: NAME_CAPACITY,
-            found: source.name.len(),
-        });
-    }
-    for (component, c) in source.components.iter().enumerate() {
-        if c.directions.len() != c.weights.len() {
-            return Err(EncodeError::TermCount {
-                component,
-                directions: c.directions.len(),
-                weights: c.weights.len(),
-            });
-        }
-    }
-    let with_precision = source
-        .components
-        .iter()
-        .filter(|c| c.precision.is_some())
-        .count();
-    if with_precision != 0 && with_precision != source.components.len() {
-        return Err(EncodeError::Precisions);
-    }
+    source::check(source)?;
+    let first = source.components.first();
     let found = out.len();
     let mut used = HEADER_LENGTH;
     section(
@@ -128,11 +91,15 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
         &mut used,
         Section::Terms,
         &TermsSection {
-            encoding: TermEncoding::Float32,
+            encoding: if first.is_some_and(|component| component.terms.is_compact()) {
+                TermEncoding::Compact
+            } else {
+                TermEncoding::Float32
+            },
             values: Values(source),
         },
     )?;
-    if with_precision > 0 {
+    if first.is_some_and(|component| component.precision.is_some()) {
         section(
             out,
             &mut used,
@@ -140,6 +107,31 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
             &RecordsSection {
                 stride: PRECISION_LENGTH as u16,
                 records: Factors(source.components),
+            },
+        )?;
+    }
+    if first.is_some_and(|component| component.validity.is_some()) {
+        section(
+            out,
+            &mut used,
+            Section::Validity,
+            &ValiditySection {
+                stride: VALIDITY_LENGTH as u16,
+                records: encode_validity::Records(source.components),
+                cells: Cells(source.components),
+            },
+        )?;
+    }
+    if let Some(quality) = source.quality {
+        section(
+            out,
+            &mut used,
+            Section::Quality,
+            &QualitySection {
+                covered: quality.covered,
+                deviation_max: quality.deviation_max,
+                deviation_rms: quality.deviation_rms,
+                unexplained: Shares(quality.unexplained),
             },
         )?;
     }
@@ -152,7 +144,10 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
         checksum: wire::checksum(payload),
     }
     .to_bytes();
-    validate::template(written).map_err(EncodeError::Invalid)?;
+    let template = validate::template(written).map_err(EncodeError::Invalid)?;
+    if source.quality.is_some() && template.quality().is_none() {
+        return Err(EncodeError::Quality);
+    }
     Ok(used)
 }
 
@@ -170,7 +165,7 @@ fn section<T: Serialize>(
     let length = postcard::to_slice(body, rest).map_err(|_| buffer)?.len();
     *header = SectionHeader {
         tag: wire::tag(section),
-        flags: REQUIRED,
+        flags: wire::flags(section),
         length: u32::try_from(length).map_err(|_| EncodeError::TooLarge)?,
     }
     .to_bytes();
@@ -180,19 +175,37 @@ fn section<T: Serialize>(
     Ok(())
 }
 
-/// The components' records. In postcard a sequence of bytes and a byte array are the same, so the
+/// Bytes, as many as said. In postcard a sequence of bytes and a byte array are the same, so the
 /// reader borrows what is written here element by element.
+pub(super) fn byte_array<S: Serializer>(
+    serializer: S,
+    length: usize,
+    bytes: impl Iterator<Item = u8>,
+) -> Result<S::Ok, S::Error> {
+    let mut sequence = serializer.serialize_seq(Some(length))?;
+    for byte in bytes {
+        sequence.serialize_element(&byte)?;
+    }
+    sequence.end()
+}
+
+/// The components' records.
 struct Records<'a>(&'a [ComponentSource<'a>]);
 
 impl Serialize for Records<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut sequence =
-            serializer.serialize_seq(Some(self.0.len().saturating_mul(RECORD_LENGTH)))?;
-        let mut first = 0_u32;
-        for component in self.0 {
+        let mut next = 0_u32;
+        let records = self.0.iter().flat_map(|component| {
             let [x, y, z] = component.centre;
             let h = &component.hyperparameters;
-            let count = u32::try_from(component.weights.len()).unwrap_or(u32::MAX);
+            let (_, count) = component.terms.lengths();
+            let taken = match component.terms {
+                TermsSource::Exact { .. } => count,
+                TermsSource::Compact { .. } => run_length(&component.terms),
+            };
+            let narrow = |number| u32::try_from(number).unwrap_or(u32::MAX);
+            let first = next;
+            next = next.saturating_add(narrow(taken));
             let numbers = [
                 x,
                 y,
@@ -202,17 +215,17 @@ impl Serialize for Records<'_> {
                 h.parameter,
                 h.prior_mean,
             ];
-            for byte in numbers
+            numbers
                 .into_iter()
                 .map(f32::to_le_bytes)
-                .chain([first.to_le_bytes(), count.to_le_bytes()])
+                .chain([first.to_le_bytes(), narrow(count).to_le_bytes()])
                 .flatten()
-            {
-                sequence.serialize_element(&byte)?;
-            }
-            first = first.saturating_add(count);
-        }
-        sequence.end()
+        });
+        byte_array(
+            serializer,
+            self.0.len().saturating_mul(RECORD_LENGTH),
+            records,
+        )
     }
 }
 
@@ -222,25 +235,47 @@ struct Values<'a>(&'a TemplateSource<'a>);
 impl Serialize for Values<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self(source) = self;
-        let terms: usize = source.components.iter().map(|c| c.weights.len()).sum();
-        let mut sequence = serializer.serialize_seq(Some(terms.saturating_mul(16)))?;
+        let lengths = source.components.iter().map(|c| run_length(&c.terms));
+        let mut sequence =
+            serializer.serialize_seq(Some(lengths.fold(0, usize::saturating_add)))?;
         let metric = source.model.metric;
         for component in source.components {
-            // A metric that this build leaves out is refused when the bytes are read back.
-            let directions = component.directions.iter().map(|u| {
-                let unit_vector = [u.x, u.y, u.z];
-                metric.coordinates(unit_vector).unwrap_or(unit_vector)
-            });
-            let xs = directions.clone().map(|[x, _, _]| x);
-            let ys = directions.clone().map(|[_, y, _]| y);
-            let zs = directions.map(|[_, _, z]| z);
-            for byte in xs
-                .chain(ys)
-                .chain(zs)
-                .chain(component.weights.iter().copied())
-                .flat_map(f32::to_le_bytes)
-            {
-                sequence.serialize_element(&byte)?;
+            match component.terms {
+                TermsSource::Exact {
+                    directions,
+                    weights,
+                } => {
+                    // A metric that this build leaves out is refused when the bytes are read back.
+                    let directions = directions.iter().map(|u| {
+                        let unit_vector = [u.x, u.y, u.z];
+                        metric.coordinates(unit_vector).unwrap_or(unit_vector)
+                    });
+                    let xs = directions.clone().map(|[x, _, _]| x);
+                    let ys = directions.clone().map(|[_, y, _]| y);
+                    let zs = directions.map(|[_, _, z]| z);
+                    for byte in xs
+                        .chain(ys)
+                        .chain(zs)
+                        .chain(weights.iter().copied())
+                        .flat_map(f32::to_le_bytes)
+                    {
+                        sequence.serialize_element(&byte)?;
+                    }
+                }
+                TermsSource::Compact {
+                    directions,
+                    weights,
+                    scale,
+                } => {
+                    let xs = directions.iter().map(|[x, _, _]| *x as u8);
+                    let ys = directions.iter().map(|[_, y, _]| *y as u8);
+                    let zs = directions.iter().map(|[_, _, z]| *z as u8);
+                    let weights = weights.iter().flat_map(|weight| weight.to_le_bytes());
+                    let scale = scale.to_le_bytes().into_iter();
+                    for byte in scale.chain(xs).chain(ys).chain(zs).chain(weights) {
+                        sequence.serialize_element(&byte)?;
+                    }
+                }
             }
         }
         sequence.end()
@@ -253,12 +288,20 @@ struct Factors<'a>(&'a [ComponentSource<'a>]);
 impl Serialize for Factors<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let length = self.0.len().saturating_mul(PRECISION_LENGTH);
-        let mut sequence = serializer.serialize_seq(Some(length))?;
-        for precision in self.0.iter().filter_map(|c| c.precision) {
-            for byte in precision.factor().into_iter().flat_map(f32::to_le_bytes) {
-                sequence.serialize_element(&byte)?;
-            }
-        }
-        sequence.end()
+        let factors = self.0.iter().filter_map(|c| c.precision);
+        let bytes = factors.flat_map(|precision| precision.factor().map(f32::to_le_bytes));
+        byte_array(serializer, length, bytes.flatten())
+    }
+}
+
+/// Shares of 1 in steps of 1/65535.
+struct Shares<'a>(&'a [f32]);
+
+impl Serialize for Shares<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        // Rust's conversion rounds down, and clamps what leaves the range.
+        let steps = |share: &f32| (share * f32::from(u16::MAX) + 0.5) as u16;
+        let bytes = self.0.iter().flat_map(|share| steps(share).to_le_bytes());
+        byte_array(serializer, self.0.len().saturating_mul(2), bytes)
     }
 }

@@ -16,6 +16,22 @@ pub enum EncodeError {
     },
     /// Some components have a precision and some have none.
     Precisions,
+    /// Some components have compact terms and some exact ones.
+    TermEncodings,
+    /// Some components have a validity and some have none.
+    Validities,
+    /// A component's grid of directions has not side² cells, or its side is no multiple of 4 from 4 to
+    /// [`crate::validity::LARGEST_SIDE`].
+    ValidityCells {
+        /// Which component.
+        component: usize,
+        /// Cells along a side.
+        side: u8,
+        /// Cells there are.
+        found: usize,
+    },
+    /// The quality has not one share for each component, or a number that is no share or no deviation.
+    Quality,
     /// A component has not as many directions as weights.
     TermCount {
         /// Which component.
@@ -46,6 +62,26 @@ impl fmt::Display for EncodeError {
             EncodeError::Precisions => {
                 f.write_str("either all components have a precision or none has")
             }
+            EncodeError::TermEncodings => {
+                f.write_str("either all components have compact terms or none has")
+            }
+            EncodeError::Validities => {
+                f.write_str("either all components have a validity or none has")
+            }
+            EncodeError::ValidityCells {
+                component,
+                side,
+                found,
+            } => write!(
+                f,
+                "component {component}: {found} cells with {side} along a side, which must be a \
+                 multiple of 4 up to {}",
+                crate::validity::LARGEST_SIDE
+            ),
+            EncodeError::Quality => f.write_str(
+                "the quality needs a share from 0 to 1 for each component, and deviations of at \
+                 least 0",
+            ),
             EncodeError::TermCount {
                 component,
                 directions,

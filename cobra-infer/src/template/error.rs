@@ -19,6 +19,10 @@ pub enum Section {
     Terms,
     /// The precision Q_k of each component.
     Precisions,
+    /// Where each component may speak.
+    Validity,
+    /// What was measured of the template.
+    Quality,
 }
 
 impl Section {
@@ -31,6 +35,8 @@ impl Section {
             Section::Components => "components",
             Section::Terms => "terms",
             Section::Precisions => "precisions",
+            Section::Validity => "validity",
+            Section::Quality => "quality",
         }
     }
 }
@@ -158,9 +164,9 @@ pub enum TemplateError {
     },
     /// Terms that belong to no component.
     UnusedTerms {
-        /// Terms that the components use.
+        /// Terms that the components use; of compact ones, bytes.
         expected: usize,
-        /// Terms there are.
+        /// Terms there are; of compact ones, bytes.
         found: usize,
     },
     /// A number of the object section is not finite and positive (the centre: not finite).
@@ -215,6 +221,57 @@ pub enum TemplateError {
     Precision {
         /// Which component.
         component: usize,
+    },
+    /// Compact terms, and the metric of angles, which has none.
+    CompactAngles,
+    /// There are not as many validities as components.
+    ValidityCount {
+        /// How many components.
+        expected: usize,
+        /// How many validities.
+        found: usize,
+    },
+    /// A component's box is not low ≤ high < [`crate::validity::BOX_STEPS`] along each axis.
+    ValidityBox {
+        /// Which component.
+        component: usize,
+        /// The least position.
+        low: [u8; 3],
+        /// The largest.
+        high: [u8; 3],
+    },
+    /// A component's grid of directions has no such pole, not from 1 to 16 blocks along a side, or rows
+    /// of blocks outside of it.
+    ValidityGrid {
+        /// Which component.
+        component: usize,
+        /// The pole's number.
+        pole: u8,
+        /// Blocks along a side.
+        blocks: u8,
+        /// The first row of blocks.
+        first: u8,
+        /// How many rows.
+        rows: u8,
+    },
+    /// The components' cells do not lie one behind the other, or not inside the validity section.
+    ValidityRange {
+        /// Which component.
+        component: usize,
+    },
+    /// A row of a component's blocks is not coded as it must be, or no cell is valid.
+    ValidityCells {
+        /// Which component.
+        component: usize,
+        /// Which of the rows that it has; as many as it has where no row but their sum is wrong.
+        row: usize,
+    },
+    /// Cells that belong to no component.
+    UnusedCells {
+        /// Bytes that the components use.
+        expected: usize,
+        /// Bytes there are.
+        found: usize,
     },
 }
 
@@ -357,6 +414,43 @@ impl fmt::Display for TemplateError {
                 f,
                 "component {component}: the precision's factor must be finite with a positive \
                  diagonal"
+            ),
+            E::CompactAngles => f.write_str("compact terms have no metric of angles"),
+            E::ValidityCount { expected, found } => {
+                write!(f, "{found} validities for {expected} components")
+            }
+            E::ValidityBox {
+                component,
+                low,
+                high,
+            } => write!(
+                f,
+                "component {component}: the box must have low <= high < 128, found {low:?} to {high:?}"
+            ),
+            E::ValidityGrid {
+                component,
+                pole,
+                blocks,
+                first,
+                rows,
+            } => write!(
+                f,
+                "component {component}: the directions need a pole below 6, 1 to 16 blocks a side and \
+                 rows inside them, found pole {pole}, {blocks} blocks, {rows} rows from {first}"
+            ),
+            E::ValidityRange { component } => write!(
+                f,
+                "the cells of component {component} do not follow those before it, or are missing"
+            ),
+            E::ValidityCells { component, row } => {
+                write!(
+                    f,
+                    "component {component}: row {row} of its cells is malformed"
+                )
+            }
+            E::UnusedCells { expected, found } => write!(
+                f,
+                "the components use {expected} bytes of cells, but the validity section holds {found}"
             ),
         }
     }

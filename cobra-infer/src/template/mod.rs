@@ -8,22 +8,31 @@
 mod cost;
 mod encode;
 mod encode_error;
+mod encode_validity;
 mod error;
 mod near;
 mod number;
 mod precision;
+mod quality;
+mod source;
 mod stored;
 mod validate;
+mod validate_validity;
+mod validity;
 mod wire;
 
 pub use cost::Cost;
-pub use encode::{ComponentSource, TemplateSource, encode, encoded_len};
+pub use encode::{encode, encoded_len};
 pub use encode_error::EncodeError;
 pub use error::{Section, TemplateError};
 pub use number::{Number, Range};
 pub use precision::Precision;
+pub use quality::Quality;
+pub use source::{ComponentSource, QualitySource, TemplateSource, TermsSource, ValiditySource};
+pub use validity::Validity;
 pub use wire::{
-    HEADER_LENGTH, MAGIC, NAME_CAPACITY, PRECISION_LENGTH, RECORD_LENGTH, VERSION, peek_len,
+    HEADER_LENGTH, MAGIC, NAME_CAPACITY, PRECISION_LENGTH, RECORD_LENGTH, VALIDITY_LENGTH, VERSION,
+    peek_len,
 };
 
 use crate::gp::{self, Hyperparameters, Terms, UnitDirection};
@@ -31,7 +40,8 @@ use crate::kernel::{Kernel, Metric, Model};
 use crate::trace;
 use crate::unit::Unit;
 pub(crate) use stored::Stored;
-use wire::{PrecisionRecord, Quad, Record};
+pub(crate) use validity::{Validities, Window};
+use wire::{PrecisionRecord, Record, TermValues};
 
 /// A validated template over borrowed bytes.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +54,9 @@ pub struct Template<'a> {
     model: Model,
     records: &'a [Record],
     precisions: Option<&'a [PrecisionRecord]>,
-    quads: &'a [Quad],
+    values: TermValues<'a>,
+    validities: Option<Validities<'a>>,
+    quality: Option<&'a [u8]>,
 }
 
 /// One component of a template: a reference point and the Gaussian process around it.
@@ -60,6 +72,8 @@ pub struct Component<'a> {
     pub hyperparameters: Hyperparameters,
     /// Its directions and weights.
     pub terms: Terms<'a>,
+    /// Where it may speak; `None` for everywhere.
+    pub validity: Option<Validity<'a>>,
 }
 
 impl<'a> Template<'a> {
@@ -146,6 +160,30 @@ impl<'a> Template<'a> {
         self.precisions.is_some()
     }
 
+    /// Whether the components speak only where they are valid.
+    #[must_use]
+    pub fn has_validity(&self) -> bool {
+        self.validities.is_some()
+    }
+
+    /// Where the components may speak; `None` for everywhere.
+    #[inline]
+    pub(crate) fn validities(&self) -> Option<&Validities<'a>> {
+        self.validities.as_ref()
+    }
+
+    /// Whether the terms are compact ([`crate::gp::compact`]).
+    #[must_use]
+    pub fn has_compact_terms(&self) -> bool {
+        matches!(self.values, TermValues::Compact(_))
+    }
+
+    /// What was measured of the template, where it says so and what it says decodes.
+    #[must_use]
+    pub fn quality(&self) -> Option<Quality<'a>> {
+        Quality::read(self.quality?, self.component_count())
+    }
+
     /// How many components there are; at least one.
     #[must_use]
     pub fn component_count(&self) -> usize {
@@ -155,16 +193,21 @@ impl<'a> Template<'a> {
     /// How many terms all components have together.
     #[must_use]
     pub fn term_count(&self) -> usize {
-        self.quads.len()
+        match self.values {
+            TermValues::Exact(quads) => quads.len(),
+            TermValues::Compact(_) => self.stored().map(|stored| stored.terms().len()).sum(),
+        }
     }
 
     /// The components, each read from its record as it is asked for.
     pub fn components(&self) -> impl ExactSizeIterator<Item = Component<'a>> + use<'a> {
-        let quads = self.quads;
+        let values = self.values;
         let mut precisions = self.precisions.map(<[PrecisionRecord]>::iter);
-        self.records.iter().map(move |record| {
+        let validities = self.validities;
+        self.records.iter().enumerate().map(move |(index, record)| {
             let precision = precisions.as_mut().and_then(Iterator::next);
-            Stored::new(record, quads).component(precision.map(Precision::from_record))
+            let validity = validities.and_then(|all| all.get(index));
+            Stored::new(record, values).component(precision.map(Precision::from_record), validity)
         })
     }
 
@@ -172,8 +215,9 @@ impl<'a> Template<'a> {
     #[must_use]
     pub fn component(&self, index: usize) -> Option<Component<'a>> {
         let precision = self.precisions.and_then(|factors| factors.get(index));
+        let validity = self.validities.and_then(|all| all.get(index));
         let stored = self.stored_at(index)?;
-        Some(stored.component(precision.map(Precision::from_record)))
+        Some(stored.component(precision.map(Precision::from_record), validity))
     }
 }
 

@@ -9,8 +9,20 @@ use crate::math;
 
 impl Template<'_> {
     /// The component of the least (P − C_k)ᵀQ_k(P − C_k), the first of equals; without precisions,
-    /// of the least ‖P − C_k‖². `None` where none of these is a finite number.
+    /// of the least ‖P − C_k‖². Of those that are valid in the point's direction. `None` where none of
+    /// these is a finite number.
     pub(crate) fn nearest(&self, point: [f32; 3]) -> Option<usize> {
+        if self.has_validity() {
+            let mut best = None;
+            let mut least = f32::INFINITY;
+            for index in 0..self.records.len() {
+                let measure = self.measure(index, point);
+                if measure < least && self.is_valid_towards(index, point) {
+                    (best, least) = (Some(index), measure);
+                }
+            }
+            return best;
+        }
         let records = self.records.iter();
         match self.precisions {
             None => least(records.map(|record| {
@@ -21,6 +33,29 @@ impl Template<'_> {
                 Precision::from_record(factor).form(wire::offset(record, point))
             })),
         }
+    }
+
+    /// What [`Template::nearest`] compares.
+    fn measure(&self, index: usize, point: [f32; 3]) -> f32 {
+        let Some(record) = self.records.get(index) else {
+            return f32::INFINITY;
+        };
+        let offset = wire::offset(record, point);
+        match self.precisions.and_then(|factors| factors.get(index)) {
+            Some(factor) => Precision::from_record(factor).form(offset),
+            None => math::dot(offset, offset),
+        }
+    }
+
+    /// Whether the cell of P − C_k is valid; without validity it always is.
+    pub(crate) fn is_valid_towards(&self, index: usize, point: [f32; 3]) -> bool {
+        let Some(validities) = self.validities() else {
+            return true;
+        };
+        let validity = validities.get(index).zip(self.records.get(index));
+        validity.is_some_and(|(validity, record)| {
+            validity.contains_direction(wire::offset(record, point))
+        })
     }
 
     /// The exponent of Eq. 8 of component `index`, (P − C_k)ᵀQ_k(P − C_k); without precisions

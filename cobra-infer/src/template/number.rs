@@ -35,6 +35,8 @@ pub enum Number {
     NoParameter,
     /// The prior mean.
     PriorMean,
+    /// The scale of compact weights.
+    WeightScale,
 }
 
 impl Number {
@@ -55,6 +57,7 @@ impl Number {
             Self::Period => "the period",
             Self::NoParameter => "the parameter",
             Self::PriorMean => "the prior mean",
+            Self::WeightScale => "the scale of the weights",
         }
     }
 

@@ -3,8 +3,8 @@
 //! Owns what scoring reads of a record, field by field and when it is needed: a [`Component`] holds
 //! all of them, and putting one together for each point costs more than the search for it.
 
-use super::wire::{self, Quad, Record};
-use super::{Component, Template};
+use super::wire::{self, Record, TermValues};
+use super::{Component, Precision, Template, Validity};
 use crate::gp::{self, Hyperparameters, Terms, UnitDirection};
 use crate::kernel::Model;
 
@@ -12,29 +12,29 @@ use crate::kernel::Model;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stored<'a> {
     record: &'a Record,
-    quads: &'a [Quad],
+    values: TermValues<'a>,
 }
 
 impl<'a> Template<'a> {
     /// The components as they lie in the file.
     pub(crate) fn stored(&self) -> impl Iterator<Item = Stored<'a>> + use<'a> {
-        let quads = self.quads;
+        let values = self.values;
         self.records
             .iter()
-            .map(move |record| Stored::new(record, quads))
+            .map(move |record| Stored::new(record, values))
     }
 
     /// Component `index` as it lies in the file.
     #[inline]
     pub(crate) fn stored_at(&self, index: usize) -> Option<Stored<'a>> {
-        Some(Stored::new(self.records.get(index)?, self.quads))
+        Some(Stored::new(self.records.get(index)?, self.values))
     }
 }
 
 impl<'a> Stored<'a> {
     #[inline]
-    pub(super) fn new(record: &'a Record, quads: &'a [Quad]) -> Self {
-        Self { record, quads }
+    pub(super) fn new(record: &'a Record, values: TermValues<'a>) -> Self {
+        Self { record, values }
     }
 
     /// P − C_k.
@@ -44,7 +44,8 @@ impl<'a> Stored<'a> {
     }
 
     /// C_k.
-    pub(super) fn centre(&self) -> [f32; 3] {
+    #[inline]
+    pub(crate) fn centre(&self) -> [f32; 3] {
         wire::centre(self.record)
     }
 
@@ -57,7 +58,9 @@ impl<'a> Stored<'a> {
     /// Of a record that was not validated, none.
     #[inline]
     pub(super) fn terms(&self) -> Terms<'a> {
-        Terms::from_quads(wire::term_quads(self.record, self.quads).unwrap_or(&[]))
+        self.values
+            .of(self.record)
+            .unwrap_or(Terms::from_quads(&[]))
     }
 
     #[inline]
@@ -78,14 +81,19 @@ impl<'a> Stored<'a> {
         gp::posterior_mean(model, &self.hyperparameters(), &self.terms(), u)
     }
 
-    /// All of it, with the precision that belongs to it.
-    pub(super) fn component(&self, precision: Option<super::Precision>) -> Component<'a> {
+    /// All of it, with the precision and the validity that belong to it.
+    pub(super) fn component(
+        &self,
+        precision: Option<Precision>,
+        validity: Option<Validity<'a>>,
+    ) -> Component<'a> {
         Component {
             centre: self.centre(),
             sigma_hat: self.sigma_hat(),
             precision,
             hyperparameters: self.hyperparameters(),
             terms: self.terms(),
+            validity,
         }
     }
 }

@@ -2,11 +2,13 @@
 
 use super::error::{Section, TemplateError};
 use super::number::{Number, Range};
+use super::validate_validity;
 use super::wire::{
-    self, HEADER_LENGTH, Header, NAME_CAPACITY, ObjectSection, Quad, REQUIRED, RecordsSection,
-    SECTION_HEADER_LENGTH, SectionHeader, TermsSection,
+    self, HEADER_LENGTH, Header, NAME_CAPACITY, ObjectSection, REQUIRED, RecordsSection,
+    SECTION_HEADER_LENGTH, SectionHeader, TermEncoding, TermValues, TermsSection, ValiditySection,
 };
-use super::{Precision, Stored, Template};
+use super::{Precision, Stored, Template, Validities};
+use crate::gp::compact::{self, GRID};
 use crate::gp::{Hyperparameters, Word};
 use crate::kernel::{Kernel, Metric, Model};
 use crate::math;
@@ -41,13 +43,17 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
     let model: Model = decode(Section::Model, bodies.model)?;
     let components: RecordsSection<&[u8]> = decode(Section::Components, bodies.components)?;
     let terms: TermsSection<&[u8]> = decode(Section::Terms, bodies.terms)?;
-    let precisions = match bodies.precisions {
+    let precisions: Option<RecordsSection<&[u8]>> = match bodies.precisions {
         Some(body) => Some(decode(Section::Precisions, body)?),
+        None => None,
+    };
+    let validities: Option<ValiditySection<&[u8], &[u8]>> = match bodies.validity {
+        Some(body) => Some(decode(Section::Validity, body)?),
         None => None,
     };
     check_model(model)?;
 
-    let components = records(Section::Components, &components)?;
+    let components = records(Section::Components, components.stride, components.records)?;
     if components.is_empty() {
         return Err(TemplateError::NoComponents);
     }
@@ -61,16 +67,29 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
         model,
         records: components,
         precisions: match &precisions {
-            Some(section) => Some(records(Section::Precisions, section)?),
+            Some(RecordsSection { stride, records }) => {
+                Some(self::records(Section::Precisions, *stride, records)?)
+            }
             None => None,
         },
-        quads: quads(&terms)?,
+        values: values(&terms, model.metric)?,
+        validities: match &validities {
+            Some(section) => Some(Validities {
+                records: records(Section::Validity, section.stride, section.records)?,
+                cells: section.cells,
+            }),
+            None => None,
+        },
+        quality: bodies.quality,
     });
     if let Ok(template) = &result {
         check_object(template)?;
         check_ranges(template)?;
         check_components(template)?;
         check_precisions(template)?;
+        if let Some(validities) = &template.validities {
+            validate_validity::check(validities, template.component_count())?;
+        }
     }
     result
 }
@@ -82,6 +101,8 @@ struct Bodies<'a> {
     components: &'a [u8],
     terms: &'a [u8],
     precisions: Option<&'a [u8]>,
+    validity: Option<&'a [u8]>,
+    quality: Option<&'a [u8]>,
 }
 
 impl<'a> Bodies<'a> {
@@ -91,6 +112,8 @@ impl<'a> Bodies<'a> {
         let mut components = None;
         let mut terms = None;
         let mut precisions = None;
+        let mut validity = None;
+        let mut quality = None;
         let mut rest = payload;
         while !rest.is_empty() {
             let offset = HEADER_LENGTH.saturating_add(payload.len().saturating_sub(rest.len()));
@@ -120,6 +143,8 @@ impl<'a> Bodies<'a> {
                 Section::Components => &mut components,
                 Section::Terms => &mut terms,
                 Section::Precisions => &mut precisions,
+                Section::Validity => &mut validity,
+                Section::Quality => &mut quality,
             };
             if place.replace(body).is_some() {
                 return Err(TemplateError::DuplicateSection { section });
@@ -134,6 +159,8 @@ impl<'a> Bodies<'a> {
             components: found(components, Section::Components)?,
             terms: found(terms, Section::Terms)?,
             precisions,
+            validity,
+            quality,
         })
     }
 }
@@ -152,31 +179,39 @@ fn decode<'a, T: Deserialize<'a>>(section: Section, body: &'a [u8]) -> Result<T,
 }
 
 /// The records of a section, of `WORDS` words each.
-fn records<'a, const WORDS: usize>(
+fn records<const WORDS: usize>(
     section: Section,
-    found: &RecordsSection<&'a [u8]>,
-) -> Result<&'a [[Word; WORDS]], TemplateError> {
+    stride: u16,
+    bytes: &[u8],
+) -> Result<&[[Word; WORDS]], TemplateError> {
     let length = WORDS * size_of::<Word>();
-    if usize::from(found.stride) != length {
+    if usize::from(stride) != length {
         return Err(TemplateError::RecordLength {
             expected: length,
-            found: usize::from(found.stride),
+            found: usize::from(stride),
         });
     }
-    let (words, odd_bytes) = found.records.as_chunks();
+    let (words, odd_bytes) = bytes.as_chunks();
     let (records, odd_words) = words.as_chunks();
     if !odd_bytes.is_empty() || !odd_words.is_empty() {
         return Err(TemplateError::ArrayLength {
             section,
             element: length,
-            found: found.records.len(),
+            found: bytes.len(),
         });
     }
     Ok(records)
 }
 
-fn quads<'a>(section: &TermsSection<&'a [u8]>) -> Result<&'a [Quad], TemplateError> {
-    let wire::TermEncoding::Float32 = section.encoding;
+fn values<'a>(
+    section: &TermsSection<&'a [u8]>,
+    metric: Metric,
+) -> Result<TermValues<'a>, TemplateError> {
+    match (section.encoding, metric) {
+        (TermEncoding::Compact, Metric::Angles) => return Err(TemplateError::CompactAngles),
+        (TermEncoding::Compact, Metric::Chord) => return Ok(TermValues::Compact(section.values)),
+        (TermEncoding::Float32, _) => {}
+    }
     let (words, odd_bytes) = section.values.as_chunks::<4>();
     let (quads, odd_words) = words.as_chunks();
     if !odd_bytes.is_empty() || !odd_words.is_empty() {
@@ -186,7 +221,7 @@ fn quads<'a>(section: &TermsSection<&'a [u8]>) -> Result<&'a [Quad], TemplateErr
             found: section.values.len(),
         });
     }
-    Ok(quads)
+    Ok(TermValues::Exact(quads))
 }
 
 fn check_model(model: Model) -> Result<(), TemplateError> {
@@ -227,17 +262,15 @@ fn check_ranges(template: &Template<'_>) -> Result<(), TemplateError> {
         if count == 0 {
             return Err(TemplateError::NoTerms { component });
         }
-        if first != next || wire::term_quads(record, template.quads).is_none() {
+        if first != next || template.values.of(record).is_none() {
             return Err(TemplateError::TermRange { component });
         }
-        next = first.saturating_add(count);
+        next = template.values.behind(record);
     }
     let expected = usize::try_from(next).unwrap_or(usize::MAX);
-    if expected != template.term_count() {
-        return Err(TemplateError::UnusedTerms {
-            expected,
-            found: template.term_count(),
-        });
+    let found = template.values.end();
+    if expected != found {
+        return Err(TemplateError::UnusedTerms { expected, found });
     }
     Ok(())
 }
@@ -245,11 +278,31 @@ fn check_ranges(template: &Template<'_>) -> Result<(), TemplateError> {
 fn check_components(template: &Template<'_>) -> Result<(), TemplateError> {
     for (component, stored) in template.stored().enumerate() {
         check_record(template.kernel(), component, stored)?;
-        for (term, (direction, weight)) in stored.terms().iter().enumerate() {
+        let terms = stored.terms();
+        for (term, (direction, weight)) in terms.exact().enumerate() {
             if !weight.is_finite() {
                 return Err(TemplateError::Weight { component, term });
             }
             check_direction(template.metric(), component, term, direction)?;
+        }
+        if let Some(found) = terms.compact_scale()
+            && !normal(found)
+        {
+            return Err(TemplateError::ComponentNumber {
+                component,
+                number: Number::WeightScale,
+                expected: Range::Normal,
+                found,
+            });
+        }
+        for (term, direction) in terms.grid_directions().enumerate() {
+            if !compact::is_unit(direction) {
+                return Err(TemplateError::Direction {
+                    component,
+                    term,
+                    squared_norm: compact::squared_norm(direction) as f32 / (GRID * GRID),
+                });
+            }
         }
     }
     Ok(())

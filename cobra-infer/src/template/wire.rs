@@ -1,7 +1,8 @@
 //! The bytes: header, section headers, records, and the postcard structures of the sections.
 
 use super::error::{Section, TemplateError};
-use crate::gp::Word;
+use crate::gp::compact::TERM_LENGTH;
+use crate::gp::{Terms, Word};
 use crate::unit::Unit;
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 use serde::{Deserialize, Serialize};
@@ -42,6 +43,26 @@ pub const PRECISION_LENGTH: usize = PRECISION_WORDS * 4;
 
 /// The factor L of a component's Q = LLᵀ, row by row.
 pub(super) type PrecisionRecord = [Word; PRECISION_WORDS];
+
+/// Words in a component's validity.
+const VALIDITY_WORDS: usize = 4;
+
+/// Bytes in a component's validity, the stride of the validities' array.
+pub const VALIDITY_LENGTH: usize = VALIDITY_WORDS * 4;
+
+/// A component's validity: low x, y, z and the pole's number; high x, y, z and the blocks along a
+/// side; the first row of blocks, the number of rows (both `u8`) and of mixed blocks (`u16`); where
+/// its cells start (`u32`).
+pub(super) type ValidityRecord = [Word; VALIDITY_WORDS];
+
+/// Cells along the side of a block.
+pub(super) const BLOCK_SIDE: u8 = 4;
+
+/// Bytes of a row of blocks: which are full, which are mixed, and how many mixed ones lie before it.
+pub(super) const ROW_LENGTH: usize = 5;
+
+/// Bytes of a mixed block's cells.
+pub(super) const LEAF_LENGTH: usize = 2;
 
 /// Without a table: a template is loaded once, and a kilobyte of flash is kept for good. A host takes
 /// 0.4 ms longer for 160 kB, which is not worth a second way to the same number.
@@ -163,6 +184,16 @@ pub(super) const fn tag(section: Section) -> u16 {
         Section::Components => 3,
         Section::Terms => 4,
         Section::Precisions => 5,
+        Section::Validity => 6,
+        Section::Quality => 7,
+    }
+}
+
+/// The flags that a section is written with.
+pub(super) const fn flags(section: Section) -> u16 {
+    match section {
+        Section::Quality => 0,
+        _ => REQUIRED,
     }
 }
 
@@ -173,6 +204,8 @@ pub(super) fn section_of(found: u16) -> Option<Section> {
         Section::Components,
         Section::Terms,
         Section::Precisions,
+        Section::Validity,
+        Section::Quality,
     ]
     .into_iter()
     .find(|section| tag(*section) == found)
@@ -201,6 +234,9 @@ pub(super) struct RecordsSection<B> {
 pub(super) enum TermEncoding {
     /// All x, all y, all z, all weights of a component, each a run of little-endian `f32`.
     Float32,
+    /// Of each component the scale of its weights, all x, all y, all z in grid steps, all weights in
+    /// units of the scale: `f32`, `i8`, little-endian `i16`.
+    Compact,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -209,7 +245,25 @@ pub(super) struct TermsSection<B> {
     pub(super) values: B,
 }
 
-/// The term range that a record names: first term and number of terms.
+/// As [`RecordsSection`], of validities, and the cells that they name ranges of.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct ValiditySection<A, B> {
+    pub(super) stride: u16,
+    pub(super) records: A,
+    pub(super) cells: B,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct QualitySection<B> {
+    pub(super) covered: f32,
+    pub(super) deviation_max: f32,
+    pub(super) deviation_rms: f32,
+    /// A little-endian `u16` for each component, in 1/65535.
+    pub(super) unexplained: B,
+}
+
+/// The term range that a record names: the first term, or the first byte of compact ones, and the
+/// number of terms.
 pub(super) fn term_range(record: &Record) -> (u32, u32) {
     let [.., first, count] = *record;
     (u32::from_le_bytes(first), u32::from_le_bytes(count))
@@ -218,12 +272,50 @@ pub(super) fn term_range(record: &Record) -> (u32, u32) {
 /// Four words: as many bytes as one term has in the four arrays of its component together.
 pub(super) type Quad = [Word; 4];
 
-/// A component's terms, if they lie inside the section.
-#[inline]
-pub(super) fn term_quads<'a>(record: &Record, quads: &'a [Quad]) -> Option<&'a [Quad]> {
-    let (first, count) = term_range(record);
-    let behind = quads.get(usize::try_from(first).ok()?..)?;
-    behind.get(..usize::try_from(count).ok()?)
+/// The terms of all components, one component's behind the other's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum TermValues<'a> {
+    Exact(&'a [Quad]),
+    Compact(&'a [u8]),
+}
+
+impl<'a> TermValues<'a> {
+    /// A component's terms, if they lie inside the section.
+    #[inline]
+    pub(super) fn of(self, record: &Record) -> Option<Terms<'a>> {
+        let (first, count) = term_range(record);
+        let (first, count) = (usize::try_from(first).ok()?, usize::try_from(count).ok()?);
+        match self {
+            Self::Exact(quads) => Some(Terms::from_quads(quads.get(first..)?.get(..count)?)),
+            Self::Compact(bytes) => {
+                let (scale, behind) = bytes.get(first..)?.split_first_chunk()?;
+                let (terms, _) = behind.as_chunks::<TERM_LENGTH>();
+                Some(Terms::from_compact(
+                    f32::from_le_bytes(*scale),
+                    terms.get(..count)?,
+                ))
+            }
+        }
+    }
+
+    /// Where the terms behind a component's start, in the unit of its record.
+    pub(super) fn behind(self, record: &Record) -> u32 {
+        let (first, count) = term_range(record);
+        first.saturating_add(match self {
+            Self::Exact(_) => count,
+            Self::Compact(_) => count
+                .saturating_mul(TERM_LENGTH as u32)
+                .saturating_add(size_of::<Word>() as u32),
+        })
+    }
+
+    /// Where the last component's terms have to end.
+    pub(super) fn end(self) -> usize {
+        match self {
+            Self::Exact(quads) => quads.len(),
+            Self::Compact(bytes) => bytes.len(),
+        }
+    }
 }
 
 /// C_k.

@@ -1,7 +1,9 @@
 //! The content of a template, owned, and its encoding: what tests build templates from.
 
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
-use cobra_infer::template::{ComponentSource, Precision, TemplateSource, encode, encoded_len};
+use cobra_infer::template::{
+    ComponentSource, Precision, TemplateSource, TermsSource, encode, encoded_len,
+};
 use cobra_infer::{EncodeError, Exponent, Kernel, Metric, Model, Unit};
 use nalgebra::Vector3;
 use proptest::collection::vec;
@@ -38,8 +40,11 @@ impl Content {
                 sigma_hat: part.sigma_hat,
                 precision: part.precision,
                 hyperparameters: part.hyperparameters,
-                directions: &part.directions,
-                weights: &part.weights,
+                terms: TermsSource::Exact {
+                    directions: &part.directions,
+                    weights: &part.weights,
+                },
+                validity: None,
             })
             .collect();
         let source = TemplateSource {
@@ -50,6 +55,7 @@ impl Content {
             diameter: self.diameter,
             model: self.model,
             components: &components,
+            quality: None,
         };
         let mut bytes = vec![0; encoded_len(&source)];
         let length = encode(&source, &mut bytes)?;

@@ -174,7 +174,7 @@ fn a_name_too_long_or_terms_that_do_not_pair_are_not_written() {
 #[test]
 fn a_buffer_a_byte_too_small_is_refused_at_any_size() {
     use cobra_infer::Unit;
-    use cobra_infer::template::{ComponentSource, TemplateSource, encode};
+    use cobra_infer::template::{ComponentSource, TemplateSource, TermsSource, encode};
     let content = Content::small();
     let needed = content.encode().len();
     let part = &content.parts[0];
@@ -183,8 +183,11 @@ fn a_buffer_a_byte_too_small_is_refused_at_any_size() {
         sigma_hat: part.sigma_hat,
         precision: None,
         hyperparameters: part.hyperparameters,
-        directions: &part.directions,
-        weights: &part.weights,
+        terms: TermsSource::Exact {
+            directions: &part.directions,
+            weights: &part.weights,
+        },
+        validity: None,
     }];
     let source = TemplateSource {
         name: "nut",
@@ -194,6 +197,7 @@ fn a_buffer_a_byte_too_small_is_refused_at_any_size() {
         diameter: 2.0,
         model: content.model,
         components: &one,
+        quality: None,
     };
     let mut buffer = vec![0xa5; needed];
     let length = encode(&source, &mut buffer).unwrap();

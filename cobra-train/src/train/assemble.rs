@@ -6,7 +6,9 @@ use crate::reference::Cluster;
 use crate::surface::BoundingSphere;
 use cobra_infer::EncodeError;
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
-use cobra_infer::template::{ComponentSource, Precision, TemplateSource, encode, encoded_len};
+use cobra_infer::template::{
+    ComponentSource, Precision, TemplateSource, TermsSource, encode, encoded_len,
+};
 use nalgebra::{Cholesky, Matrix3};
 
 /// A fitted component in the mesh's unit and in the template's precision.
@@ -84,8 +86,11 @@ impl Frame<'_> {
                 sigma_hat: *sigma_hat,
                 precision: component.precision,
                 hyperparameters: component.hyperparameters,
-                directions: &component.directions,
-                weights: &component.weights,
+                terms: TermsSource::Exact {
+                    directions: &component.directions,
+                    weights: &component.weights,
+                },
+                validity: None,
             })
             .collect();
         let source = TemplateSource {
@@ -96,6 +101,7 @@ impl Frame<'_> {
             diameter: self.diameter as f32,
             model: self.options.fit.model,
             components: &components,
+            quality: None,
         };
         let mut bytes = vec![0; encoded_len(&source)];
         let length = encode(&source, &mut bytes)?;

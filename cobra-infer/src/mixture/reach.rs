@@ -1,0 +1,98 @@
+//! Which components need not be asked, because what they would say cannot be the most probable.
+//!
+//! A component that speaks for P with residual e predicts a point at distance |e| from P, and inside its
+//! own box. So if its box has no position in common with those of [P − r, P + r], then |e| > r, and it
+//! finds P less probable than any whose cost is at most ½(r/σ)², plus the least ln σ for the density, σ
+//! being the template's largest. Maximum assignment asks within the first reach, and then, if what it
+//! found is not good enough for that, once more within the reach that this leaves.
+//!
+//! Nothing of it may show in the answer, so the reach is widened by [`SLACK`] for rounding: offset,
+//! length, direction and predicted point are each off by at most 8 units of 2⁻²⁴ of |P|, of |C_k| or of
+//! the residual, and so is the cost, of which the logarithm, at most 89, is off by 2⁻¹⁸. Conversion to
+//! positions rounds nothing that matters: it keeps order.
+
+use crate::math::{self, Real};
+use crate::template::{Template, Window};
+use crate::validity::BoxGrid;
+
+/// What the reach is widened by, as a share of all lengths that are rounded on the way to it: 2⁻¹⁸.
+const SLACK: f32 = 1.0 / 262_144.0;
+
+/// Residuals that the first look covers, in units of the largest σ: beyond, a likelihood is below 1 %.
+const FIRST: f32 = 3.0;
+
+/// What is known of a template beforehand.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach {
+    grid: BoxGrid,
+    /// How far the first look reaches; infinite where all are asked at once.
+    pub(super) first: f32,
+    largest_sigma: f32,
+    least_cost: f32,
+    /// The largest coordinate of a reference point, in magnitude.
+    furthest: f32,
+}
+
+impl Reach {
+    /// Of no component yet.
+    pub(super) fn new(template: &Template<'_>) -> Self {
+        Self {
+            grid: BoxGrid::new(template.centre(), template.radius()),
+            first: f32::INFINITY,
+            largest_sigma: 0.0,
+            least_cost: f32::INFINITY,
+            furthest: 0.0,
+        }
+    }
+
+    /// Takes a component in: where it lies, its σ, and what its cost is with a residual of 0.
+    pub(super) fn take(&mut self, centre: [f32; 3], sigma: f32, least_cost: f32) {
+        for coordinate in centre {
+            self.furthest = larger(self.furthest, math::abs(coordinate));
+        }
+        self.largest_sigma = larger(self.largest_sigma, sigma);
+        self.least_cost = -larger(-self.least_cost, -least_cost);
+    }
+
+    /// All components are taken in, and need not be asked all at once.
+    pub(super) fn prune(&mut self) {
+        self.first = FIRST * self.largest_sigma;
+    }
+
+    /// The positions that are no farther than `reach` from a point along each axis.
+    pub(super) fn window(&self, at: [f32; 3], reach: f32) -> Window {
+        let [x, y, z] = at.map(math::abs);
+        let reach = reach + (((x + y) + z) + (self.furthest + reach)) * SLACK;
+        let [x, y, z] = at;
+        Window::between(
+            self.grid_position([x - reach, y - reach, z - reach]),
+            self.grid_position([x + reach, y + reach, z + reach]),
+        )
+    }
+
+    /// The position of a point alone.
+    #[inline]
+    pub(super) fn position(&self, point: [f32; 3]) -> Window {
+        let position = self.grid_position(point);
+        Window::between(position, position)
+    }
+
+    // Out of line: it is needed in three places.
+    #[inline(never)]
+    fn grid_position(&self, point: [f32; 3]) -> [u8; 3] {
+        self.grid.position(point)
+    }
+
+    /// The largest residual that costs no more than `best`, the least cost so far.
+    pub(super) fn needed(&self, best: Option<f32>) -> f32 {
+        let square = |cost: f32| 2.0 * (cost - self.least_cost);
+        best.map_or(f32::INFINITY, |cost| {
+            self.largest_sigma * square(cost).square_root()
+        })
+    }
+}
+
+/// Of two numbers, none of which is NaN.
+fn larger(a: f32, b: f32) -> f32 {
+    if a < b { b } else { a }
+}
