@@ -33,6 +33,8 @@ pub enum Purpose {
     Charts,
     /// Which samples around a chart it is fitted to besides its own.
     ChartRings,
+    /// Where points are moved off the surface.
+    OffSurface,
 }
 
 /// The stream for one purpose and index.

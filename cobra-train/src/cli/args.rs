@@ -1,9 +1,9 @@
 //! The arguments of `cobra`, with the help that goes with them.
 
 use super::choices::{
-    AssignmentArgument, ExponentArgument, ExportFormat, KernelArgument, LikelihoodArgument,
-    MetricArgument, SamplingArgument, ThresholdArgument, UnitArgument, WeightsArgument, identifier,
-    not_negative, overlap, positive,
+    AssignmentArgument, BudgetArgument, ExponentArgument, ExportFormat, KernelArgument,
+    LikelihoodArgument, MetricArgument, SamplingArgument, ThresholdArgument, UnitArgument,
+    ValidityArgument, WeightsArgument, budget, identifier, not_negative, overlap, positive,
 };
 use super::learning::{OptimiserArgument, PriorMeanArgument, SubsetArgument, subset};
 use clap::{Args, Parser, Subcommand};
@@ -110,12 +110,27 @@ pub(crate) struct TrainArguments {
     #[arg(long, value_enum, default_value_t = SamplingArgument::Cameras)]
     pub(crate) sampling: SamplingArgument,
 
-    /// `kmeans`, `em` (a mixture of Gaussians), or a text file with x y z a line in the mesh's frame
-    /// and unit
-    #[arg(long, value_name = "kmeans|em|FILE", default_value = "kmeans")]
+    /// `auto` (as many as the surface asks for, inside and outside of it), `kmeans`, `em` (a mixture
+    /// of Gaussians), or a text file with x y z a line in the mesh's frame and unit
+    #[arg(long, value_name = "auto|kmeans|em|FILE", default_value = "auto")]
     pub(crate) reference_points: PathBuf,
 
-    /// Components (reference points); with a file, the number of its lines [default: 16]
+    /// Most components that `auto` may choose [default: 64]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) max_components: Option<u32>,
+
+    /// Most bytes that the template may have: its terms are compressed into them. none: the exact
+    /// Gaussian process [default: 14336; none with --metric angles]
+    #[arg(long, value_name = "BYTES|none", value_parser = budget)]
+    pub(crate) budget: Option<BudgetArgument>,
+
+    /// Where components may speak: where what they predict lies beside their own points, or
+    /// everywhere, as in the paper
+    #[arg(long, value_enum, default_value_t = ValidityArgument::Verified)]
+    pub(crate) validity: ValidityArgument,
+
+    /// Components (reference points) of kmeans and em; with a file, the number of its lines
+    /// [default: 16]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) components: Option<u32>,
 
@@ -129,7 +144,7 @@ pub(crate) struct TrainArguments {
     #[arg(long, value_enum, default_value_t = KernelArgument::Rq)]
     pub(crate) kernel: KernelArgument,
 
-    /// Exponent of the rational quadratic [default: 1]; scoring with 0.5 takes about 1.6 times
+    /// Exponent of the rational quadratic [default: 0.5]; scoring with 0.5 takes about 1.6 times
     /// as long as with 1, with a free exponent about 80 times
     #[arg(long, value_name = "ALPHA", value_enum)]
     pub(crate) exponent: Option<ExponentArgument>,
@@ -242,10 +257,11 @@ pub(crate) struct ScoreArguments {
     #[arg(long, value_enum, default_value_t = LikelihoodArgument::Peak)]
     pub(crate) likelihood: LikelihoodArgument,
 
-    /// Which component speaks for a point: the nearest; the one that finds it most probable (max),
-    /// which also forgives more wrong points; or all of them, mixed as in the paper's Eqs. 6 to 8
-    #[arg(long, value_enum, default_value_t = AssignmentArgument::Nearest)]
-    pub(crate) assignment: AssignmentArgument,
+    /// Which component speaks for a point: the nearest; the one that finds it most probable (max);
+    /// or all of them, mixed as in the paper's Eqs. 6 to 8 (soft). Of those that may speak for it
+    /// [default: max; nearest where the template lets all speak everywhere]
+    #[arg(long, value_enum)]
+    pub(crate) assignment: Option<AssignmentArgument>,
 
     /// Undecided with fewer correspondences than this
     #[arg(long, value_name = "N", default_value_t = cobra_infer::Settings::MINIMUM_POINTS)]
@@ -264,8 +280,11 @@ pub(crate) struct ScoreArguments {
 #[command(
     after_help = "Chamfer distance (times 1000), precision, recall and F-score (percent, tau = \
                   0.01) are the paper's, in the unit sphere. The component is the one that the \
-                  scorer would use on the test point. In JSON, residual is in the unit sphere and \
-                  residual_mm in millimetres.\n\nExample:\n  cobra eval part.cobra --mesh \
+                  scorer would use on the test point, which it chooses by the point's distance: read \
+                  F together with wrongly accepted, the percent of points truly 0.02 to 0.05 off the \
+                  surface whose residual is below tau, and with self F, the F-score of the \
+                  template's own points. In JSON, residual is in the unit sphere and residual_mm in \
+                  millimetres.\n\nExample:\n  cobra eval part.cobra --mesh \
                   part.ply --points-out predicted.ply"
 )]
 pub(crate) struct EvalArguments {
@@ -285,9 +304,10 @@ pub(crate) struct EvalArguments {
     #[arg(long, value_name = "N", default_value_t = 30_000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) points: u32,
 
-    /// Which component speaks for a point; the other rules' figures are given beside
-    #[arg(long, value_enum, default_value_t = AssignmentArgument::Nearest)]
-    pub(crate) assignment: AssignmentArgument,
+    /// Which component speaks for a point; the other rules' figures are given beside [default: the
+    /// scorer's, as of cobra score]
+    #[arg(long, value_enum)]
+    pub(crate) assignment: Option<AssignmentArgument>,
 
     /// Seed of the test points
     #[arg(long, default_value_t = 0)]

@@ -1,10 +1,13 @@
 //! What the command's options choose among, and how their numbers are read.
 
 use clap::ValueEnum;
-use cobra_infer::{Assignment, Exponent, Kernel, Likelihood, Metric, Smoothness, Threshold, Unit};
+use cobra_infer::{
+    Assignment, Exponent, Kernel, Likelihood, Metric, Settings, Smoothness, Template, Threshold,
+    Unit,
+};
 use cobra_train::export::Identifier;
 use cobra_train::input::Weighting;
-use cobra_train::train::{Overlap, SurfaceSampling};
+use cobra_train::train::{Overlap, SurfaceSampling, Validity};
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum UnitArgument {
@@ -88,6 +91,37 @@ impl From<SamplingArgument> for SurfaceSampling {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum ValidityArgument {
+    /// Where what they predict lies beside their own points
+    Verified,
+    /// Everywhere
+    Everywhere,
+}
+
+impl From<ValidityArgument> for Validity {
+    fn from(validity: ValidityArgument) -> Self {
+        match validity {
+            ValidityArgument::Verified => Validity::Verified,
+            ValidityArgument::Everywhere => Validity::Everywhere,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum BudgetArgument {
+    Bytes(usize),
+    None,
+}
+
+pub(super) fn budget(text: &str) -> Result<BudgetArgument, String> {
+    match text.parse::<usize>() {
+        _ if text == "none" => Ok(BudgetArgument::None),
+        Ok(bytes) if bytes > 0 => Ok(BudgetArgument::Bytes(bytes)),
+        _ => Err("expected `none` or a number of bytes, such as 14336".to_owned()),
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum ExponentArgument {
     #[value(name = "1")]
     One,
@@ -158,6 +192,17 @@ pub(crate) enum AssignmentArgument {
     Nearest,
     Max,
     Soft,
+}
+
+/// What the user asks for, or what suits the template ([`Settings::for_template`]).
+pub(super) fn assignment(
+    chosen: Option<AssignmentArgument>,
+    template: &Template<'_>,
+) -> Assignment {
+    chosen.map_or_else(
+        || Settings::for_template(template, 1.0).assignment,
+        Assignment::from,
+    )
 }
 
 impl From<AssignmentArgument> for Assignment {

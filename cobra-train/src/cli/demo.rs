@@ -88,7 +88,10 @@ fn judge(
 ) -> Result<(SimulatedEstimate, Report), Failure> {
     let pose = to_pose(&estimate.pose)
         .map_err(|error| Failure::BadInput(format!("simulated pose: {error}")))?;
-    let settings = Settings::with_delta(0.01 * template.diameter());
+    let settings = Settings {
+        delta: 0.01 * template.diameter(),
+        ..Settings::for_template(&template, 1.0)
+    };
     let report = score::<LARGEST_TEMPLATE>(
         template,
         &scorer_camera(),

@@ -1,6 +1,7 @@
 //! `cobra eval`: how well a template reproduces a mesh or a cloud.
 
 use super::args::EvalArguments;
+use super::choices::assignment;
 use super::failure::Failure;
 use super::object;
 use super::outputs;
@@ -9,7 +10,8 @@ use super::template_file;
 use super::terminal::Terminal;
 use cobra_infer::{Assignment, Template};
 use cobra_train::evaluate::{
-    Evaluation, ResidualSummary, ShapeMetrics, evaluate, evaluation_points, write_points,
+    Evaluation, OwnCloud, ResidualSummary, ShapeMetrics, TrueSurface, WronglyAccepted, evaluate,
+    evaluation_points, own_cloud, write_points, wrongly_accepted,
 };
 use cobra_train::progress::Progress;
 use cobra_train::surface::Geometry;
@@ -32,7 +34,7 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
     let object = object::read(&arguments.mesh, arguments.unit_sphere, terminal)?.geometry;
     warn_of_another_object(&template, &object, terminal);
     let points = test_points(&object, arguments, terminal)?;
-    let chosen: Assignment = arguments.assignment.into();
+    let chosen = assignment(arguments.assignment, &template);
     let evaluation = evaluate(&template, chosen, &points)?;
     let mut beside = Vec::new();
     for other in [Assignment::Nearest, Assignment::Maximum, Assignment::Soft] {
@@ -40,6 +42,11 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
             beside.push((other, evaluate(&template, other, &points)?));
         }
     }
+    let surface = TrueSurface::new(&object);
+    let strict = Strict {
+        wrongly_accepted: wrongly_accepted(&template, chosen, &surface, &points, arguments.seed)?,
+        own_cloud: own_cloud(&template, &surface, &points),
+    };
     if let Some(path) = &arguments.points_out {
         write_points(path, &evaluation.predicted)?;
     }
@@ -51,6 +58,7 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
             points: points.len(),
             tau: cobra_train::evaluate::TAU,
             figures: Figures::new(chosen, &evaluation, &template),
+            strict: &strict,
             other_rules: beside
                 .iter()
                 .map(|(rule, evaluation)| Figures::new(*rule, evaluation, &template))
@@ -63,7 +71,8 @@ pub(super) fn run(arguments: &EvalArguments, terminal: &Terminal) -> Result<(), 
     }
     let mut rows = vec![(chosen, &evaluation)];
     rows.extend(beside.iter().map(|(rule, evaluation)| (*rule, evaluation)));
-    terminal.print(&text(&template, &rows, points.len()))
+    terminal.print(&text(&template, &rows, points.len()))?;
+    terminal.print(&strict.text())
 }
 
 fn test_points(
@@ -103,7 +112,33 @@ struct Document<'a> {
     tau: f64,
     #[serde(flatten)]
     figures: Figures,
+    #[serde(flatten)]
+    strict: &'a Strict,
     other_rules: Vec<Figures>,
+}
+
+/// Of the rule that was chosen.
+#[derive(Serialize)]
+struct Strict {
+    wrongly_accepted: WronglyAccepted,
+    /// `null` for a template without validity.
+    own_cloud: Option<OwnCloud>,
+}
+
+impl Strict {
+    fn text(&self) -> String {
+        let mut text = format!(
+            "\nwrongly accepted: {:.2} % of {} points 0.02 to 0.05 off the surface",
+            self.wrongly_accepted.percent, self.wrongly_accepted.points
+        );
+        if let Some(own) = &self.own_cloud {
+            text += &format!(
+                "\nself F: {:.2} % (P {:.2}, R {:.2}) of {} points that the template predicts",
+                own.self_f_score, own.self_precision, own.self_recall, own.points
+            );
+        }
+        text
+    }
 }
 
 /// Chamfer, shares and `residual` in the unit sphere; `residual_mm` in millimetres.
@@ -115,6 +150,8 @@ struct Figures {
     residual: ResidualSummary,
     residual_mm: ResidualSummary,
     unmatched: usize,
+    /// Percent of the test points with a residual of at most tau.
+    covered: f64,
 }
 
 impl Figures {
@@ -127,6 +164,7 @@ impl Figures {
             residual: evaluation.residual.scaled(unit_sphere),
             residual_mm: evaluation.residual.scaled(millimetres),
             unmatched: evaluation.unmatched,
+            covered: evaluation.covered,
         }
     }
 }
@@ -156,6 +194,7 @@ fn text(
                 format!("{:.2}", shape.precision),
                 format!("{:.2}", shape.recall),
                 format!("{:.2}", shape.f_score),
+                format!("{:.2}", evaluation.covered),
                 format!("{:.3}", residual.rms),
                 format!("{:.3}", residual.median),
                 format!("{:.3}", residual.p95),
@@ -168,6 +207,7 @@ fn text(
         "P %",
         "R %",
         "F %",
+        "covered %",
         "rms mm",
         "median mm",
         "p95 mm",

@@ -70,6 +70,8 @@ pub(super) fn choose(arguments: &TrainArguments, fit: &mut FitOptions) {
 /// Says that learning will take long, where it will.
 pub(super) fn warn_of_patience(options: &TrainOptions, terminal: &Terminal) {
     let components = match &options.reference_points {
+        // As few as that are rare.
+        ReferencePoints::Auto { .. } => 8,
         ReferencePoints::KMeans { components } | ReferencePoints::Em { components } => *components,
         ReferencePoints::Given(given) => given.len(),
     };

@@ -1,6 +1,7 @@
 //! `cobra score`: estimated poses against a template.
 
 use super::args::ScoreArguments;
+use super::choices::assignment;
 use super::failure::Failure;
 use super::outputs;
 use super::report::{JsonTarget, plural, table};
@@ -136,7 +137,7 @@ fn settings(arguments: &ScoreArguments, template: &Template<'_>) -> Settings {
         .unwrap_or(0.01 * template.diameter() / millimetre);
     Settings {
         likelihood: arguments.likelihood.into(),
-        assignment: arguments.assignment.into(),
+        assignment: assignment(arguments.assignment, template),
         sigma: match arguments.sigma_hat {
             Some(sigma) => Sigma::Fixed(sigma * millimetre),
             None => Sigma::Template {

@@ -1,7 +1,7 @@
 //! `cobra train`: a mesh becomes a template file.
 
 use super::args::TrainArguments;
-use super::choices::KernelArgument;
+use super::choices::{BudgetArgument, KernelArgument};
 use super::coverage;
 use super::failure::Failure;
 use super::learning;
@@ -10,7 +10,7 @@ use super::outputs;
 use super::report::{JsonTarget, plural};
 use super::terminal::Terminal;
 use cobra_infer::template::NAME_CAPACITY;
-use cobra_infer::{Exponent, Model, Template, Unit};
+use cobra_infer::{Exponent, Metric, Model, Template, Unit};
 use cobra_train::coverage::{Coverage, coverage as measure};
 use cobra_train::evaluate::evaluation_points;
 use cobra_train::gp::{Optimiser, PriorMean, Subset};
@@ -18,7 +18,9 @@ use cobra_train::output::write_whole;
 use cobra_train::progress::Progress;
 use cobra_train::reference::read_reference_points;
 use cobra_train::surface::{BoundingSphere, Geometry};
-use cobra_train::train::{Overlap, ReferencePoints, TrainOptions, Trained, train};
+use cobra_train::train::{
+    BUDGET, MOST_CHARTS, Overlap, ReferencePoints, TrainOptions, Trained, train,
+};
 use serde::Serialize;
 use std::path::Path;
 
@@ -26,6 +28,7 @@ use std::path::Path;
 const COMPONENTS: u32 = 16;
 
 /// What `--reference-points` and the JSON call the ways of clustering.
+const AUTO: &str = "auto";
 const KMEANS: &str = "kmeans";
 const EM: &str = "em";
 
@@ -122,7 +125,9 @@ fn options(arguments: &TrainArguments) -> Result<TrainOptions, Failure> {
     options.sampling = arguments.sampling.into();
     options.reference_points = reference_points(arguments)?;
     options.overlap = arguments.overlap;
+    options.validity = arguments.validity.into();
     options.fit.model = model(arguments)?;
+    options.budget = budget(arguments)?;
     learning::choose(arguments, &mut options.fit);
     options.seed = arguments.seed;
     Ok(options)
@@ -134,14 +139,51 @@ fn model(arguments: &TrainArguments) -> Result<Model, Failure> {
             "--exponent is the rational quadratic's: it goes with --kernel rq alone".to_owned(),
         ));
     }
-    let exponent = arguments.exponent.map_or(Exponent::One, Exponent::from);
+    let exponent = arguments.exponent.map_or(Exponent::Half, Exponent::from);
     Ok(Model {
         metric: arguments.metric.into(),
         kernel: arguments.kernel.with_exponent(exponent),
     })
 }
 
+fn budget(arguments: &TrainArguments) -> Result<Option<usize>, Failure> {
+    let angles = Metric::from(arguments.metric) == Metric::Angles;
+    match arguments.budget {
+        Some(BudgetArgument::Bytes(_)) if angles => Err(Failure::Usage(
+            "--budget goes with --metric chord alone: angles are not compressed".to_owned(),
+        )),
+        Some(BudgetArgument::Bytes(bytes)) => Ok(Some(bytes)),
+        None if !angles => Ok(Some(BUDGET)),
+        _ => Ok(None),
+    }
+}
+
 fn reference_points(arguments: &TrainArguments) -> Result<ReferencePoints, Failure> {
+    let auto = arguments.reference_points == Path::new(AUTO);
+    if !auto && arguments.max_components.is_some() {
+        return Err(Failure::Usage(
+            "--max-components goes with --reference-points auto; the others have --components"
+                .to_owned(),
+        ));
+    }
+    if auto {
+        if arguments.components.is_some() {
+            return Err(Failure::Usage(
+                "--components goes with --reference-points kmeans or em; auto finds the number and \
+                 has --max-components"
+                    .to_owned(),
+            ));
+        }
+        if arguments.overlap != Overlap::None {
+            return Err(Failure::Usage(
+                "--overlap goes with --reference-points kmeans, em or a file".to_owned(),
+            ));
+        }
+        let most = arguments
+            .max_components
+            .map_or(MOST_CHARTS, |most| most as usize);
+        return Ok(ReferencePoints::Auto { most });
+    }
     let components = arguments.components.unwrap_or(COMPONENTS) as usize;
     let Some(file) = centres_file(arguments) else {
         return Ok(if arguments.reference_points == Path::new(EM) {
@@ -164,7 +206,11 @@ fn reference_points(arguments: &TrainArguments) -> Result<ReferencePoints, Failu
 /// The file that `--reference-points` names, unless it names a way of clustering.
 fn centres_file(arguments: &TrainArguments) -> Option<&Path> {
     let path = arguments.reference_points.as_path();
-    Some(path).filter(|path| ![KMEANS, EM].iter().any(|name| *path == Path::new(name)))
+    Some(path).filter(|path| {
+        ![AUTO, KMEANS, EM]
+            .iter()
+            .any(|name| *path == Path::new(name))
+    })
 }
 
 fn describe(object: &Object, unit: Unit, terminal: &Terminal) {
@@ -275,6 +321,7 @@ fn document<'a>(
         points: trained.points,
         test_points: trained.test_points,
         reference_points: match options.reference_points {
+            ReferencePoints::Auto { .. } => AUTO,
             ReferencePoints::KMeans { .. } => KMEANS,
             ReferencePoints::Em { .. } => EM,
             ReferencePoints::Given(_) => "given",

@@ -5,6 +5,7 @@
 //! compute the same thing.
 
 mod cholesky;
+mod compress;
 mod fit;
 mod gram;
 mod likelihood;
@@ -12,6 +13,7 @@ mod optimise;
 mod posterior;
 
 pub use cholesky::{Cholesky, NotPositiveDefinite};
+pub use compress::{Compressed, Uncompressed, compress};
 pub use fit::{FitError, FitOptions, FittedGp, LARGEST_GP, PriorMean, Subset, explained, fit};
 pub use gram::{Coordinates, Hyperparameters, coordinates, covariance, covariances, gram};
 pub use likelihood::{LikelihoodAndGradient, negative_log_marginal_likelihood};

@@ -1,28 +1,54 @@
 //! From fitted components to the bytes of a template: the change of scale and of precision.
 
 use super::TrainOptions;
-use crate::gp::FittedGp;
+use crate::gp::{Compressed, FittedGp};
 use crate::reference::Cluster;
 use crate::surface::BoundingSphere;
-use cobra_infer::EncodeError;
+use crate::validity::ValidCells;
+use cobra_infer::gp::compact::GRID;
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
 use cobra_infer::template::{
-    ComponentSource, Precision, TemplateSource, TermsSource, encode, encoded_len,
+    ComponentSource, Precision, QualitySource, TemplateSource, TermsSource, ValiditySource, encode,
+    encoded_len,
 };
+use cobra_infer::{EncodeError, Kernel};
 use nalgebra::{Cholesky, Matrix3};
 
-/// A fitted component in the mesh's unit and in the template's precision.
+/// A component in the mesh's unit and in the template's precision.
+#[derive(Clone)]
 pub(super) struct ScaledComponent {
     centre: [f32; 3],
     precision: Option<Precision>,
     hyperparameters: Hyperparameters,
-    directions: Vec<UnitDirection>,
-    weights: Vec<f32>,
+    terms: ScaledTerms,
+    validity: Option<ScaledValidity>,
+}
+
+#[derive(Clone)]
+enum ScaledTerms {
+    Exact {
+        directions: Vec<UnitDirection>,
+        weights: Vec<f32>,
+    },
+    Compact {
+        directions: Vec<[i8; 3]>,
+        weights: Vec<i16>,
+        scale: f32,
+    },
+}
+
+/// Where a component may speak.
+#[derive(Clone)]
+pub(super) struct ScaledValidity {
+    pub(super) cells: ValidCells,
+    pub(super) low: [u8; 3],
+    pub(super) high: [u8; 3],
 }
 
 impl ScaledComponent {
-    /// `None` where the cluster's precision leaves the range of `f32` in the mesh's unit.
-    pub(super) fn new(
+    /// The exact Gaussian process. `None` where the cluster's precision leaves the range of `f32` in
+    /// the mesh's unit.
+    pub(super) fn exact(
         cluster: &Cluster,
         fitted: &FittedGp,
         sphere: &BoundingSphere,
@@ -44,17 +70,103 @@ impl ScaledComponent {
                 parameter: h.parameter as f32,
                 prior_mean: (sphere.radius * fitted.prior_mean) as f32,
             },
-            directions: fitted
-                .directions
-                .iter()
-                .map(|u| UnitDirection::new_unchecked(u.cast::<f32>().into_inner()))
-                .collect(),
-            weights: fitted
-                .weights
-                .iter()
-                .map(|w| (sphere.radius * w) as f32)
-                .collect(),
+            terms: ScaledTerms::Exact {
+                directions: fitted
+                    .directions
+                    .iter()
+                    .map(|u| UnitDirection::new_unchecked(u.cast::<f32>().into_inner()))
+                    .collect(),
+                weights: fitted
+                    .weights
+                    .iter()
+                    .map(|w| (sphere.radius * w) as f32)
+                    .collect(),
+            },
+            validity: None,
         })
+    }
+
+    /// The same component with compressed terms.
+    pub(super) fn compact(
+        &self,
+        kernel: Kernel,
+        compressed: &Compressed,
+        sphere: &BoundingSphere,
+    ) -> Self {
+        let Hyperparameters {
+            length_scale,
+            parameter,
+            prior_mean,
+        } = self.hyperparameters;
+        // What the kernel makes of coordinates that are 127 times as large.
+        let (length_scale, parameter, shrink) = match kernel {
+            Kernel::Linear => (length_scale, parameter, GRID.powi(-2)),
+            Kernel::Polynomial => (length_scale, parameter * GRID.powi(2), GRID.powi(-6)),
+            Kernel::Periodic => (length_scale, parameter * GRID, 1.0),
+            _ => (length_scale * GRID, parameter, 1.0),
+        };
+        Self {
+            hyperparameters: Hyperparameters {
+                length_scale,
+                parameter,
+                prior_mean,
+            },
+            terms: ScaledTerms::Compact {
+                directions: compressed.directions.clone(),
+                weights: compressed.weights.clone(),
+                scale: (sphere.radius * compressed.scale * f64::from(shrink)) as f32,
+            },
+            validity: None,
+            ..*self
+        }
+    }
+
+    pub(super) fn with_validity(self, validity: ScaledValidity) -> Self {
+        Self {
+            validity: Some(validity),
+            ..self
+        }
+    }
+
+    pub(super) fn term_count(&self) -> usize {
+        match &self.terms {
+            ScaledTerms::Exact { weights, .. } => weights.len(),
+            ScaledTerms::Compact { weights, .. } => weights.len(),
+        }
+    }
+
+    fn source(&self, sigma_hat: f32) -> ComponentSource<'_> {
+        ComponentSource {
+            centre: self.centre,
+            sigma_hat,
+            precision: self.precision,
+            hyperparameters: self.hyperparameters,
+            terms: match &self.terms {
+                ScaledTerms::Exact {
+                    directions,
+                    weights,
+                } => TermsSource::Exact {
+                    directions,
+                    weights,
+                },
+                ScaledTerms::Compact {
+                    directions,
+                    weights,
+                    scale,
+                } => TermsSource::Compact {
+                    directions,
+                    weights,
+                    scale: *scale,
+                },
+            },
+            validity: self.validity.as_ref().map(|validity| ValiditySource {
+                pole: validity.cells.pole,
+                side: validity.cells.side,
+                cells: &validity.cells.cells,
+                low: validity.low,
+                high: validity.high,
+            }),
+        }
     }
 }
 
@@ -77,21 +189,12 @@ impl Frame<'_> {
         &self,
         components: &[ScaledComponent],
         sigma_hats: &[f32],
+        quality: Option<QualitySource<'_>>,
     ) -> Result<Vec<u8>, EncodeError> {
         let components: Vec<ComponentSource<'_>> = components
             .iter()
             .zip(sigma_hats)
-            .map(|(component, sigma_hat)| ComponentSource {
-                centre: component.centre,
-                sigma_hat: *sigma_hat,
-                precision: component.precision,
-                hyperparameters: component.hyperparameters,
-                terms: TermsSource::Exact {
-                    directions: &component.directions,
-                    weights: &component.weights,
-                },
-                validity: None,
-            })
+            .map(|(component, sigma_hat)| component.source(*sigma_hat))
             .collect();
         let source = TemplateSource {
             name: &self.options.name,
@@ -101,11 +204,20 @@ impl Frame<'_> {
             diameter: self.diameter as f32,
             model: self.options.fit.model,
             components: &components,
-            quality: None,
+            quality,
         };
         let mut bytes = vec![0; encoded_len(&source)];
         let length = encode(&source, &mut bytes)?;
         bytes.truncate(length);
         Ok(bytes)
+    }
+
+    /// The template before anything is measured of it: every σ̂ the radius.
+    pub(super) fn provisional(
+        &self,
+        components: &[ScaledComponent],
+    ) -> Result<Vec<u8>, EncodeError> {
+        let sigma_hats = vec![self.sphere.radius as f32; components.len()];
+        self.encode(components, &sigma_hats, None)
     }
 }

@@ -3,14 +3,19 @@
 //! Owns which of the ways to draw points is used for which of them, and nothing of how it is done:
 //! that is `surface`'s work. All points are in the unit sphere.
 
-use super::{TrainError, TrainOptions};
+use super::membership::{Patch, patches};
+use super::{ReferencePoints, TrainError, TrainOptions};
 use crate::random::Purpose;
 use crate::reference::Cluster;
 use crate::surface::{
-    BoundingSphere, Geometry, Mesh, PointCloud, RayCaster, SplitCloud, sample_from_within,
-    sample_poisson, sample_visible,
+    BoundingSphere, Geometry, Mesh, PointCloud, RayCaster, SplitCloud, SurfacePoint,
+    sample_from_within, sample_poisson, sample_visible, thin, with_estimated_normals,
 };
 use nalgebra::Point3;
+
+/// How many points cameras draw for each that charts are placed on, which are those that lie evenly:
+/// of a deep cavity cameras see little, and a chart can be verified only where points are.
+const SPREAD: usize = 4;
 
 /// How training points are drawn on faces. Test points are always what cameras see: that is what
 /// will be scored. A point cloud is not drawn on: its own points are split.
@@ -52,7 +57,7 @@ pub(super) struct Faces {
 
 pub(super) struct Drawn {
     /// What reference points are placed on.
-    pub(super) training: Vec<Point3<f64>>,
+    pub(super) training: Vec<SurfacePoint>,
     /// What σ̂ is measured on.
     pub(super) test: Vec<Point3<f64>>,
 }
@@ -83,39 +88,43 @@ impl Surface {
             Self::Faces(faces) => &**faces,
             Self::Points(cloud) => {
                 let SplitCloud { training, test } = cloud.split(points, test_points, options.seed);
+                let training = with_estimated_normals(&training);
                 return Ok(Drawn { training, test });
             }
         };
-        let count = points + test_points;
-        let visible = sample_visible(mesh, caster, count, options.seed, Purpose::Training)?;
-        let mut training: Vec<Point3<f64>> =
-            visible.into_iter().map(|point| point.position).collect();
-        let test = training.split_off(points);
+        let spread = matches!(options.reference_points, ReferencePoints::Auto { .. });
+        let drawn = if spread { SPREAD * points } else { points };
+        let count = drawn + test_points;
+        let mut training = sample_visible(mesh, caster, count, options.seed, Purpose::Training)?;
+        let test = training.split_off(drawn);
+        let test = test.into_iter().map(|point| point.position).collect();
+        if spread {
+            training = thin(training, points);
+        }
         if options.sampling == SurfaceSampling::Poisson {
-            training = sample_poisson(mesh, points, options.seed);
+            training = with_estimated_normals(&sample_poisson(mesh, points, options.seed));
         }
         Ok(Drawn { training, test })
     }
 
-    /// The training points, once there are reference points: `drawn` unless they are to be seen
-    /// from these.
+    /// The training points and whose they are, once there are reference points: as they are unless
+    /// they are to be seen from these.
     pub(super) fn redraw(
         &self,
-        drawn: Vec<Point3<f64>>,
-        clusters: &[Cluster],
+        drawn: Vec<SurfacePoint>,
+        placed: Vec<Patch>,
         options: &TrainOptions,
-    ) -> Result<Vec<Point3<f64>>, TrainError> {
+    ) -> Result<(Vec<SurfacePoint>, Vec<Patch>), TrainError> {
         match (self, options.sampling) {
             (Self::Faces(faces), SurfaceSampling::ReferencePoints) => {
+                let clusters: Vec<Cluster> = placed.iter().map(|patch| patch.cluster).collect();
                 let centres: Vec<_> = clusters.iter().map(Cluster::centre).collect();
-                Ok(sample_from_within(
-                    &faces.caster,
-                    &centres,
-                    options.points,
-                    options.seed,
-                )?)
+                let points =
+                    sample_from_within(&faces.caster, &centres, options.points, options.seed)?;
+                let placed = patches(&points, &clusters, options.overlap);
+                Ok((with_estimated_normals(&points), placed))
             }
-            _ => Ok(drawn),
+            _ => Ok((drawn, placed)),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Why there is no template.
 
 use super::{LARGEST_TEMPLATE, SurfaceSampling};
-use crate::gp::FitError;
+use crate::gp::{FitError, NotPositiveDefinite};
 use crate::reference::ClusterError;
 use crate::surface::SampleError;
 use cobra_infer::{EncodeError, ScoreError, TemplateError};
@@ -41,6 +41,40 @@ pub enum TrainError {
     /// The points could not be clustered.
     #[error(transparent)]
     Cluster(#[from] ClusterError),
+    /// Points were to be drawn from reference points that are to be placed on them.
+    #[error(
+        "reference points that place themselves cannot be what points are drawn from: give them, or \
+         use clustering"
+    )]
+    NeedsReferencePoints,
+    /// No reference point sees a piece of the surface that is large enough.
+    #[error("no reference point sees enough of the surface: use more points, or clustering")]
+    NoCharts,
+    /// Reference points could not be placed.
+    #[error("placing reference points: {source}")]
+    Charts {
+        /// Why.
+        source: FitError,
+    },
+    /// Compression failed.
+    #[error("compressing: {0}")]
+    Compress(NotPositiveDefinite),
+    /// Compression is of directions on the chord.
+    #[error("templates with the metric of angles cannot be compressed: use no budget")]
+    BudgetNeedsChord,
+    /// Not even one component fits.
+    #[error(
+        "a template of {budget} bytes holds no component of this object: {least} bytes are needed"
+    )]
+    Budget {
+        /// What was asked for.
+        budget: usize,
+        /// What is needed.
+        least: usize,
+    },
+    /// No component may speak anywhere: what they predict lies beside none of their points.
+    #[error("no component reproduces its own points: use more components or more points")]
+    NothingVerified,
     /// A given reference point is of no use.
     #[error(
         "reference point {index} at ({}, {}, {}) is the nearest of none of the {points} training \

@@ -3,44 +3,55 @@
 //! Owns the random stream of each fit and the check that each component has points; the fit itself
 //! is `gp`'s work.
 
-use super::membership::training_points;
+use super::membership::Patch;
 use super::{ReferencePoints, TrainError, TrainOptions};
 use crate::gp::{self, FittedGp};
 use crate::progress::Progress;
 use crate::random::{Purpose, stream};
-use crate::reference::Cluster;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
+/// The most points that the process of a chart is fitted to. One chart may have a third of all points,
+/// and the exact process is, but for `budget: None`, what the compressed one is compared with.
+const LARGEST_CHART: usize = 1500;
+
 pub(super) fn fit_all(
-    training: &[Point3<f64>],
-    clusters: &[Cluster],
+    points: &[Point3<f64>],
+    patches: &[Patch],
     options: &TrainOptions,
     progress: &dyn Progress,
 ) -> Result<Vec<FittedGp>, TrainError> {
-    let members = training_points(training, clusters, options.overlap);
     if let (Some(index), ReferencePoints::Given(given)) = (
-        members.iter().position(Vec::is_empty),
+        patches.iter().position(|patch| patch.training.is_empty()),
         &options.reference_points,
     ) {
         return Err(TrainError::UnusedReferencePoint {
             index,
             centre: given[index],
-            points: training.len(),
+            points: points.len(),
         });
     }
-    progress.start("fitting components", clusters.len() as u64);
-    let fitted = members
+    let most = match options.reference_points {
+        ReferencePoints::Auto { .. } => LARGEST_CHART,
+        _ => usize::MAX,
+    };
+    progress.start("fitting components", patches.len() as u64);
+    let fitted = patches
         .par_iter()
-        .zip(clusters)
         .enumerate()
-        .map(|(component, (members, cluster))| {
+        .map(|(component, patch)| {
             let mut rng = stream(
                 options.seed,
                 Purpose::HyperparameterSubset,
                 component as u64,
             );
-            let fitted = gp::fit(&cluster.centre(), members, &options.fit, &mut rng);
+            let training: Vec<Point3<f64>> = patch
+                .training
+                .iter()
+                .take(most)
+                .map(|&index| points[index])
+                .collect();
+            let fitted = gp::fit(&patch.cluster.centre(), &training, &options.fit, &mut rng);
             progress.step();
             fitted.map_err(|source| TrainError::Fit { component, source })
         })

@@ -38,33 +38,44 @@ impl Overlap {
     }
 }
 
-/// Each component's training points, in the order of `points`; none for a component that none
-/// belongs to.
-pub(super) fn training_points(
+/// One component before it is fitted: its reference point, and which points are whose.
+#[derive(Clone, Debug)]
+pub(super) struct Patch {
+    pub(super) cluster: Cluster,
+    /// The points that it is there for, by rising index.
+    pub(super) own: Vec<usize>,
+    /// The points that it is fitted to, by rising index.
+    pub(super) training: Vec<usize>,
+}
+
+/// Each cluster with its points; none for a cluster that none belongs to.
+pub(super) fn patches(
     points: &[Point3<f64>],
     clusters: &[Cluster],
     overlap: Overlap,
-) -> Vec<Vec<Point3<f64>>> {
+) -> Vec<Patch> {
     let labels = assign(points, clusters);
     clusters
         .par_iter()
         .enumerate()
         .map(|(index, cluster)| {
             let centre = cluster.centre();
+            let own: Vec<usize> = (0..points.len()).filter(|&i| labels[i] == index).collect();
             let reach = match overlap {
                 Overlap::None => f64::NEG_INFINITY,
                 Overlap::Ball { share } => {
-                    let own = points.iter().zip(&labels).filter(|(_, of)| **of == index);
-                    let radius = own.map(|(point, _)| distance(point, &centre));
+                    let radius = own.iter().map(|&i| distance(&points[i], &centre));
                     (1.0 + share) * radius.fold(0.0, f64::max)
                 }
             };
-            points
-                .iter()
-                .zip(&labels)
-                .filter(|(point, of)| **of == index || distance(point, &centre) <= reach)
-                .map(|(point, _)| *point)
-                .collect()
+            let training = (0..points.len())
+                .filter(|&i| labels[i] == index || distance(&points[i], &centre) <= reach)
+                .collect();
+            Patch {
+                cluster: *cluster,
+                own,
+                training,
+            }
         })
         .collect()
 }
@@ -89,6 +100,17 @@ mod tests {
         let mut clusters: Vec<_> = cloud(5).into_iter().map(Cluster::round).collect();
         clusters.push(Cluster::shaped(Point3::new(0.1, -0.2, 0.0), long).unwrap());
         clusters
+    }
+
+    fn training_points(
+        points: &[Point3<f64>],
+        clusters: &[Cluster],
+        overlap: Overlap,
+    ) -> Vec<Vec<Point3<f64>>> {
+        patches(points, clusters, overlap)
+            .iter()
+            .map(|patch| patch.training.iter().map(|&i| points[i]).collect())
+            .collect()
     }
 
     #[test]

@@ -1,10 +1,12 @@
-//! Where the reference points lie: by clustering, or as they are given.
+//! Where the reference points lie: by charts, by clustering, or as they are given.
 //!
-//! Owns how many results of clustering are compared and by what; clustering is `reference`'s work.
+//! Owns how many results of clustering are compared and by what; charts and clustering are
+//! `reference`'s work.
 
-use super::{LARGEST_TEMPLATE, TrainError, TrainOptions};
+use super::membership::{Patch, patches};
+use super::{LARGEST_TEMPLATE, SurfaceSampling, TrainError, TrainOptions};
 use crate::reference::{self, Cluster, ClusterError};
-use crate::surface::BoundingSphere;
+use crate::surface::{BoundingSphere, SurfacePoint};
 use nalgebra::Point3;
 
 /// How many results of clustering are compared.
@@ -16,6 +18,11 @@ pub const PLACEMENTS: usize = 32;
 /// Where the reference points come from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ReferencePoints {
+    /// Charts, as many as the surface asks for ([`reference::charts`]).
+    Auto {
+        /// The most.
+        most: usize,
+    },
     /// k-means on the training points.
     KMeans {
         /// How many.
@@ -30,12 +37,45 @@ pub enum ReferencePoints {
     Given(Vec<Point3<f64>>),
 }
 
+/// Components and which of the training points are whose.
 pub(super) fn place(
+    training: &[SurfacePoint],
+    sphere: &BoundingSphere,
+    options: &TrainOptions,
+) -> Result<Vec<Patch>, TrainError> {
+    if let ReferencePoints::Auto { most } = options.reference_points {
+        check_count(most)?;
+        if options.sampling == SurfaceSampling::ReferencePoints {
+            return Err(TrainError::NeedsReferencePoints);
+        }
+        let charts = reference::charts(training, most, options.seed)
+            .map_err(|source| TrainError::Charts { source })?;
+        if charts.is_empty() {
+            return Err(TrainError::NoCharts);
+        }
+        return Ok(charts
+            .into_iter()
+            .map(|chart| Patch {
+                cluster: Cluster::round(chart.centre),
+                own: chart.own,
+                training: chart.training,
+            })
+            .collect());
+    }
+    let points: Vec<Point3<f64>> = training.iter().map(|p| p.position).collect();
+    let clusters = clusters(&points, sphere, options)?;
+    Ok(patches(&points, &clusters, options.overlap))
+}
+
+/// Clusters of points, or around given ones.
+fn clusters(
     points: &[Point3<f64>],
     sphere: &BoundingSphere,
     options: &TrainOptions,
 ) -> Result<Vec<Cluster>, TrainError> {
     match &options.reference_points {
+        // Charts are no clusters.
+        ReferencePoints::Auto { .. } => Ok(Vec::new()),
         ReferencePoints::KMeans { components } => {
             check_count(*components)?;
             let placements = reference::kmeans(points, *components, PLACEMENTS, options.seed)?

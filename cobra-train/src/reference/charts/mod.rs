@@ -278,10 +278,11 @@ impl Candidate {
         for (member, residual) in members().zip(&residuals) {
             residual_of[member] = *residual;
         }
-        let training: Vec<usize> = whole
+        let mut training: Vec<usize> = whole
             .into_iter()
             .filter(|m| residual_of[*m].abs() <= limit)
             .collect();
+        training.sort_unstable();
         let own: Vec<usize> = members()
             .zip(&residuals)
             .filter(|(member, residual)| {

@@ -3,6 +3,10 @@
 //! Owns the paper's definitions (its supplement, Metrics). Predictions come from the scorer's own
 //! mixture, so that what is measured is what will run.
 
+mod strict;
+
+pub use strict::{OwnCloud, TrueSurface, WronglyAccepted, own_cloud, wrongly_accepted};
+
 use crate::output::{WriteError, write_whole};
 use crate::random::Purpose;
 use crate::surface::{Geometry, RayCaster, SampleError, sample_visible};
@@ -74,6 +78,8 @@ pub struct Evaluation {
     pub residual: ResidualSummary,
     /// Surface points that no component could say anything about.
     pub unmatched: usize,
+    /// Percent of the surface points with a residual of at most τ.
+    pub covered: f64,
     /// The predictions, in the order of the points; those without a match left out.
     pub predicted: Vec<PredictedPoint>,
 }
@@ -156,7 +162,10 @@ pub fn evaluate(
     let unit = |point: &Point3<f64>| -> [f64; 3] { ((point - centre) / radius).into() };
     let surface: Vec<[f64; 3]> = points.iter().map(unit).collect();
     let estimate: Vec<[f64; 3]> = predicted.iter().map(|p| unit(&p.position)).collect();
+    let tau = TAU * f64::from(template.radius());
+    let covered = predicted.iter().filter(|p| p.residual.abs() <= tau).count();
     Ok(Evaluation {
+        covered: 100.0 * covered as f64 / points.len().max(1) as f64,
         shape: shape_metrics(&surface, &estimate),
         residual: summarise(predicted.iter().map(|p| p.residual.abs()).collect()),
         unmatched: points.len() - predicted.len(),

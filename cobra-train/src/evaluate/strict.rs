@@ -1,0 +1,211 @@
+//! What the choice of the component hides: it is made by the point's own distance, so that a template
+//! that says much in every direction looks better than it is.
+//!
+//! Owns two measures that see through it: how many points off the surface are accepted, and how well
+//! the template's own points, of which no test point knows, lie on the surface and cover it.
+
+use super::{TAU, residuals, squared_distances};
+use crate::random::{Purpose, stream};
+use crate::surface::{Geometry, NearestPoints, RayCaster};
+use crate::train::LARGEST_TEMPLATE;
+use cobra_infer::gp::UnitDirection;
+use cobra_infer::validity::{BoxGrid, direction};
+use cobra_infer::{Assignment, ScoreError, Template};
+use nalgebra::{Point3, UnitVector3, Vector3};
+use rand::Rng;
+use rand::RngExt;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// Points that are moved off the surface.
+const MOVED: usize = 10_000;
+
+/// How far they are moved, and how far off the surface they must then be, in the unit sphere.
+const MOVE: std::ops::Range<f64> = 0.02..0.06;
+const OFF: std::ops::RangeInclusive<f64> = 0.02..=0.05;
+
+/// Predictions along each side of a valid cell: a cell is about 2τ wide.
+const PER_SIDE: u8 = 6;
+
+/// The surface that a template is measured against, in the object's frame.
+pub struct TrueSurface {
+    kind: Kind,
+}
+
+enum Kind {
+    Faces(Box<RayCaster>),
+    Points(NearestPoints),
+}
+
+impl TrueSurface {
+    /// Of a mesh, its faces; of a cloud, all its points.
+    #[must_use]
+    pub fn new(object: &Geometry) -> Self {
+        let kind = match object {
+            Geometry::Mesh(mesh) => Kind::Faces(Box::new(RayCaster::new(mesh))),
+            Geometry::Cloud(cloud) => {
+                let points: Vec<[f64; 3]> = cloud.points().iter().map(|p| (*p).into()).collect();
+                Kind::Points(NearestPoints::new(&points))
+            }
+        };
+        Self { kind }
+    }
+
+    fn distance(&self, point: &Point3<f64>) -> f64 {
+        match &self.kind {
+            Kind::Faces(caster) => caster.distance(point),
+            Kind::Points(tree) => tree.distance(&(*point).into()),
+        }
+    }
+}
+
+/// How many points off the surface the template takes for points on it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct WronglyAccepted {
+    /// Points truly 0.02 to 0.05 off the surface (unit sphere).
+    pub points: usize,
+    /// Percent of them with a residual below τ.
+    pub percent: f64,
+}
+
+/// Moves up to 10,000 of `points` 0.02 to 0.06 in random directions, keeps those that are then 0.02
+/// to 0.05 off the surface, and asks the template about them, all in the unit sphere. The same
+/// arguments give the same numbers.
+///
+/// # Errors
+/// [`ScoreError::TooManyComponents`] beyond [`LARGEST_TEMPLATE`].
+pub fn wrongly_accepted(
+    template: &Template<'_>,
+    assignment: Assignment,
+    surface: &TrueSurface,
+    points: &[Point3<f64>],
+    seed: u64,
+) -> Result<WronglyAccepted, ScoreError> {
+    let radius = f64::from(template.radius());
+    let mut rng = stream(seed, Purpose::OffSurface, 0);
+    let moved: Vec<Point3<f64>> = points
+        .iter()
+        .take(MOVED)
+        .map(|point| point + any_direction(&mut rng).scale(radius * rng.random_range(MOVE)))
+        .collect();
+    let off: Vec<Point3<f64>> = moved
+        .into_par_iter()
+        .filter(|point| OFF.contains(&(surface.distance(point) / radius)))
+        .collect();
+    let accepted = residuals(template, assignment, &off)?
+        .iter()
+        .flatten()
+        .filter(|found| f64::from(found.residual()).abs() < TAU * radius)
+        .count();
+    Ok(WronglyAccepted {
+        points: off.len(),
+        percent: 100.0 * accepted as f64 / off.len().max(1) as f64,
+    })
+}
+
+/// Uniform on the sphere: uniform in the ball, scaled.
+fn any_direction(rng: &mut impl Rng) -> UnitVector3<f64> {
+    loop {
+        let [x, y, z]: [f64; 3] = rng.random();
+        let v = Vector3::new(2.0 * x - 1.0, 2.0 * y - 1.0, 2.0 * z - 1.0);
+        if v.norm_squared() <= 1.0
+            && let Some(direction) = UnitVector3::try_new(v, 1e-3)
+        {
+            return direction;
+        }
+    }
+}
+
+/// The template's own points against the surface.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct OwnCloud {
+    /// How many points the template was asked for.
+    pub points: usize,
+    /// Percent of them within τ of the surface.
+    pub self_precision: f64,
+    /// Percent of the test points within τ of one of them.
+    pub self_recall: f64,
+    /// 2PR/(P + R).
+    pub self_f_score: f64,
+}
+
+/// The points that all components predict on a grid of 6 × 6 directions in each valid cell, where they
+/// lie in the component's box, against the surface and against test `points` (object frame, template's
+/// unit). `None` for a template without validity.
+#[must_use]
+pub fn own_cloud(
+    template: &Template<'_>,
+    surface: &TrueSurface,
+    points: &[Point3<f64>],
+) -> Option<OwnCloud> {
+    if !template.has_validity() {
+        return None;
+    }
+    let cloud = predictions(template);
+    let radius = f64::from(template.radius());
+    let on_surface = cloud
+        .par_iter()
+        .filter(|point| surface.distance(point) < TAU * radius)
+        .count();
+    let arrays = |points: &[Point3<f64>]| -> Vec<[f64; 3]> {
+        points.iter().map(|point| (point / radius).into()).collect()
+    };
+    let recalled = squared_distances(&arrays(points), &arrays(&cloud))
+        .into_iter()
+        .filter(|squared| *squared < TAU * TAU)
+        .count();
+    let percent = |some: usize, all: usize| 100.0 * some as f64 / all.max(1) as f64;
+    let (precision, recall) = (
+        percent(on_surface, cloud.len()),
+        percent(recalled, points.len()),
+    );
+    Some(OwnCloud {
+        points: cloud.len(),
+        self_precision: precision,
+        self_recall: recall,
+        self_f_score: if precision + recall > 0.0 {
+            2.0 * precision * recall / (precision + recall)
+        } else {
+            0.0
+        },
+    })
+}
+
+fn predictions(template: &Template<'_>) -> Vec<Point3<f64>> {
+    let grid = BoxGrid::new(template.centre(), template.radius());
+    let components: Vec<_> = template.components().take(LARGEST_TEMPLATE).collect();
+    components
+        .par_iter()
+        .flat_map_iter(|component| {
+            let centre = Point3::from(component.centre);
+            let validity = component.validity.into_iter();
+            let cells = validity.flat_map(|validity| {
+                let places = (0..PER_SIDE).flat_map(|row| (0..PER_SIDE).map(move |c| [c, row]));
+                let places: Vec<[f32; 2]> = places.map(|at| at.map(inside)).collect();
+                validity.cells().flat_map(move |cell| {
+                    let (pole, side) = (validity.pole(), validity.side());
+                    places
+                        .clone()
+                        .into_iter()
+                        .map(move |at| (validity, direction(pole, side, cell, at)))
+                })
+            });
+            cells
+                .filter_map(|(validity, direction)| {
+                    let u = UnitDirection::new_unchecked(direction.into());
+                    let mean = component.posterior_mean(template.model(), &u);
+                    let point = centre + u.into_inner() * mean;
+                    let position = grid.position(point.coords.into());
+                    let in_box = (0..3)
+                        .all(|i| (validity.low()[i]..=validity.high()[i]).contains(&position[i]));
+                    in_box.then(|| point.cast())
+                })
+                .collect::<Vec<Point3<f64>>>()
+        })
+        .collect()
+}
+
+/// The middle of one of six parts.
+fn inside(part: u8) -> f32 {
+    (f32::from(part) + 0.5) / f32::from(PER_SIDE)
+}

@@ -1,0 +1,153 @@
+//! A template in a budget of bytes.
+//!
+//! Owns how many terms, and if need be how many components, fit; which terms is
+//! [`crate::gp::compress`]'s question.
+
+use super::assemble::{Frame, ScaledComponent};
+use super::verify::validities;
+use super::{Part, TrainError};
+use crate::gp::{Uncompressed, compress};
+use crate::surface::SurfacePoint;
+use cobra_infer::Metric;
+use nalgebra::UnitVector3;
+
+/// Bytes of a term, and of a component's run of them besides.
+const TERM: usize = 5;
+const RUN: usize = 4;
+
+/// With fewer terms a component on average, components go before more terms do.
+const FEWEST_TERMS: usize = 14;
+
+/// Bytes for what grows by a byte or two as lengths do.
+const SLACK: usize = 16;
+
+/// Bytes of an exact term.
+const EXACT_TERM: usize = 16;
+
+/// Compresses the exact `parts` into `budget` bytes, the last section of `quality` bytes included.
+/// Where they have validity, it is verified anew. Parts that do not fit or may no longer speak anywhere
+/// are left out, those of fewest points first.
+pub(super) fn squeeze(
+    frame: &Frame<'_>,
+    mut parts: Vec<Part>,
+    training: &[SurfacePoint],
+    verified: bool,
+    budget: usize,
+) -> Result<Vec<Part>, TrainError> {
+    let model = frame.options.fit.model;
+    if model.metric != Metric::Chord {
+        return Err(TrainError::BudgetNeedsChord);
+    }
+    let mut terms = loop {
+        let fixed = fixed_bytes(frame, &parts)?;
+        let room = budget.saturating_sub(fixed) / TERM;
+        if room >= FEWEST_TERMS * parts.len() {
+            break room;
+        }
+        if parts.len() == 1 {
+            return Err(TrainError::Budget {
+                budget,
+                least: fixed + FEWEST_TERMS * TERM,
+            });
+        }
+        let least = parts
+            .iter()
+            .enumerate()
+            .min_by_key(|(_, part)| part.patch.own.len());
+        if let Some((least, _)) = least {
+            parts.remove(least);
+        }
+    };
+    loop {
+        let sources: Vec<Uncompressed> = parts
+            .iter()
+            .map(|part| uncompressed(part, training, model.kernel))
+            .collect();
+        let compressed = compress(&sources, terms).map_err(TrainError::Compress)?;
+        let mut compact: Vec<Part> = parts
+            .iter()
+            .zip(&compressed)
+            .map(|(part, compressed)| Part {
+                scaled: part.scaled.compact(model.kernel, compressed, frame.sphere),
+                ..part.clone()
+            })
+            .collect();
+        if verified {
+            compact = verify_parts(frame, compact, training)?;
+        }
+        let scaled: Vec<ScaledComponent> = compact.iter().map(|p| p.scaled.clone()).collect();
+        let length = frame.provisional(&scaled)?.len() + quality_bytes(compact.len());
+        if length <= budget {
+            return Ok(compact);
+        }
+        terms = terms.saturating_sub((length - budget).div_ceil(TERM));
+        if terms < parts.len() {
+            return Err(TrainError::Budget {
+                budget,
+                least: length,
+            });
+        }
+    }
+}
+
+/// The parts with the validity of what they now say, without those that may speak nowhere.
+pub(super) fn verify_parts(
+    frame: &Frame<'_>,
+    parts: Vec<Part>,
+    training: &[SurfacePoint],
+) -> Result<Vec<Part>, TrainError> {
+    let scaled: Vec<ScaledComponent> = parts.iter().map(|part| part.scaled.clone()).collect();
+    let patches: Vec<_> = parts.iter().map(|part| part.patch.clone()).collect();
+    let found = validities(frame, &scaled, &patches, training)?;
+    let verified: Vec<Part> = parts
+        .into_iter()
+        .zip(found)
+        .filter_map(|(part, validity)| {
+            Some(Part {
+                scaled: part.scaled.with_validity(validity?),
+                ..part
+            })
+        })
+        .collect();
+    if verified.is_empty() {
+        return Err(TrainError::NothingVerified);
+    }
+    Ok(verified)
+}
+
+/// What the template takes without terms.
+fn fixed_bytes(frame: &Frame<'_>, parts: &[Part]) -> Result<usize, TrainError> {
+    let scaled: Vec<ScaledComponent> = parts.iter().map(|part| part.scaled.clone()).collect();
+    let exact: usize = scaled.iter().map(ScaledComponent::term_count).sum();
+    let whole = frame.provisional(&scaled)?.len();
+    Ok(whole - EXACT_TERM * exact + RUN * parts.len() + quality_bytes(parts.len()) + SLACK)
+}
+
+/// Of the quality section: its header, three numbers, and two bytes a component.
+fn quality_bytes(components: usize) -> usize {
+    8 + 3 * 4 + 3 + 2 * components
+}
+
+/// All the points that a component is fitted to, also those that the exact process leaves out.
+fn uncompressed(
+    part: &Part,
+    training: &[SurfacePoint],
+    kernel: cobra_infer::Kernel,
+) -> Uncompressed {
+    let centre = part.patch.cluster.centre();
+    let prior_mean = part.fitted.prior_mean;
+    let (directions, targets) = part
+        .patch
+        .training
+        .iter()
+        .filter_map(|&index| UnitVector3::try_new_and_get(training[index].position - centre, 1e-4))
+        .map(|(direction, distance)| (direction, distance - prior_mean))
+        .unzip();
+    Uncompressed {
+        kernel,
+        hyperparameters: part.fitted.learned.hyperparameters,
+        directions,
+        targets,
+        prior_mean,
+    }
+}
