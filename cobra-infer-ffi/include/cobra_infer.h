@@ -209,6 +209,34 @@ enum CobraStatus
    */
   COBRA_STATUS_TEMPLATE_PRECISION = 127,
   /**
+   * Compact terms have no metric of angles.
+   */
+  COBRA_STATUS_TEMPLATE_COMPACT_ANGLES = 128,
+  /**
+   * There are not as many validities as components.
+   */
+  COBRA_STATUS_TEMPLATE_VALIDITY_COUNT = 129,
+  /**
+   * A component's box is empty or leaves its grid.
+   */
+  COBRA_STATUS_TEMPLATE_VALIDITY_BOX = 130,
+  /**
+   * A component's grid of directions is not one that there is.
+   */
+  COBRA_STATUS_TEMPLATE_VALIDITY_GRID = 131,
+  /**
+   * The components' cells do not follow each other, or are missing.
+   */
+  COBRA_STATUS_TEMPLATE_VALIDITY_RANGE = 132,
+  /**
+   * A component's cells are malformed, or none is valid.
+   */
+  COBRA_STATUS_TEMPLATE_VALIDITY_CELLS = 133,
+  /**
+   * Cells belong to no component.
+   */
+  COBRA_STATUS_TEMPLATE_UNUSED_CELLS = 134,
+  /**
    * An entry of the camera matrix is not finite.
    */
   COBRA_STATUS_CAMERA_NOT_FINITE = 200,
@@ -721,6 +749,10 @@ typedef struct CobraReport {
    * Why.
    */
   CobraReason reason;
+  /**
+   * How many came to lie where no component speaks for them.
+   */
+  uint32_t uncovered;
 } CobraReport;
 
 #ifdef __cplusplus

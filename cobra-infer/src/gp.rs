@@ -143,6 +143,23 @@ mod tests {
         h.prior_mean + (((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])))
     }
 
+    /// As [`documented_mean`], of compact terms as they lie in a file.
+    fn documented_compact_mean(
+        kernel: Kernel,
+        h: &Hyperparameters,
+        (scale, run): (f32, &[([i8; 3], i16)]),
+        u: [f32; 3],
+    ) -> f32 {
+        let query = [u[0] * 127.0, u[1] * 127.0, u[2] * 127.0];
+        let mut a = [0.0_f32; LANES];
+        for (i, ([x, y, z], w)) in run.iter().enumerate() {
+            let steps = [f32::from(*x), f32::from(*y), f32::from(*z)];
+            a[i % LANES] += f32::from(*w) * documented_kernel(kernel, h, query, steps);
+        }
+        let sum = ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
+        h.prior_mean + scale * sum
+    }
+
     fn documented_kernel(kernel: Kernel, h: &Hyperparameters, a: [f32; 3], b: [f32; 3]) -> f32 {
         let (l, p) = (h.length_scale, h.parameter);
         let d = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -209,6 +226,53 @@ mod tests {
                     let documented = documented_mean(kernel, &hyperparameters, &terms, query);
                     assert_eq!(mean.to_bits(), documented.to_bits(), "{model:?} {count}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn the_mean_of_compact_terms_has_the_bits_of_the_documented_order() {
+        let mut state = 7_u32;
+        let mut number = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / (1 << 23) as f32 - 1.0
+        };
+        for count in 0..70 {
+            let run: Vec<([i8; 3], i16)> = (0..count)
+                .map(|_| {
+                    let direction = [number(), number(), number()].map(|x| (127.0 * x) as i8);
+                    (direction, (32767.0 * number()) as i16)
+                })
+                .collect();
+            let mut bytes: Vec<u8> = Vec::new();
+            for axis in 0..3 {
+                bytes.extend(run.iter().map(|(direction, _)| direction[axis] as u8));
+            }
+            bytes.extend(run.iter().flat_map(|(_, weight)| weight.to_le_bytes()));
+            let scale = 0.01 + 0.005 * number();
+            let terms = Terms::from_compact(scale, bytes.as_chunks().0);
+            assert_eq!(terms.len(), count);
+            let u = Unit::new_normalize(Vector3::new(number(), number(), number()));
+            let hyperparameters = Hyperparameters {
+                length_scale: 40.0 + 20.0 * number(),
+                parameter: 0.7 + 0.2 * number(),
+                prior_mean: 40.0 * number(),
+            };
+            for kernel in Kernel::ALL {
+                let model = Model::chord(kernel);
+                let mean = posterior_mean(model, &hyperparameters, &terms, &u);
+                let documented = documented_compact_mean(
+                    kernel,
+                    &hyperparameters,
+                    (scale, &run),
+                    [u.x, u.y, u.z],
+                );
+                assert_eq!(mean.to_bits(), documented.to_bits(), "{kernel:?} {count}");
+            }
+            let inspected = terms.iter().zip(&run);
+            for ((direction, weight), (steps, w)) in inspected {
+                assert_eq!(direction, steps.map(|s| f32::from(s) / 127.0));
+                assert_eq!(weight, f32::from(*w) * scale);
             }
         }
     }

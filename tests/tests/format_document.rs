@@ -1,11 +1,13 @@
 //! `docs/FORMAT.md` says what the code does: its example is the encoder's output, its table says
 //! where things lie in it, and its constants are the code's.
 
+use cobra_infer::gp::compact::GRID;
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
 use cobra_infer::template::{
     ComponentSource, HEADER_LENGTH, MAGIC, NAME_CAPACITY, PRECISION_LENGTH, RECORD_LENGTH,
-    TemplateSource, TermsSource, VERSION, encode, encoded_len, peek_len,
+    TemplateSource, TermsSource, VALIDITY_LENGTH, VERSION, encode, encoded_len, peek_len,
 };
+use cobra_infer::validity::{BOX_STEPS, LARGEST_SIDE, Pole};
 use cobra_infer::{Exponent, Kernel, Model, Template, Unit, tolerance};
 use nalgebra::Vector3;
 
@@ -129,6 +131,14 @@ fn the_documented_constants_are_the_codes() {
         format!("A record is {RECORD_LENGTH} bytes."),
         format!("bytes in a record: {RECORD_LENGTH} |"),
         format!("bytes in a factor: {PRECISION_LENGTH} |"),
+        format!("bytes in a validity: {VALIDITY_LENGTH} |"),
+        format!("A validity is {VALIDITY_LENGTH} bytes."),
+        format!(
+            "high: the largest position along x, y, z, at most {} |",
+            BOX_STEPS - 1
+        ),
+        format!("1 to {}: it has (4B)² cells", LARGEST_SIDE / 4),
+        format!("in grid steps of 1/{GRID}, from −{GRID} to {GRID};"),
         format!("| name | {NAME_CAPACITY} bytes |"),
         format!("string, at most {NAME_CAPACITY} bytes"),
         format!("|‖uᵢ‖² − 1| ≤ {:e},", tolerance::UNIT_DIRECTION),
@@ -138,6 +148,13 @@ fn the_documented_constants_are_the_codes() {
     }
     for (index, unit) in Unit::ALL.into_iter().enumerate() {
         let name = format!("{index} {unit:?}").to_lowercase();
+        assert!(PAGE.contains(&name), "{name}");
+    }
+    for (index, pole) in Pole::ALL.into_iter().enumerate() {
+        let axis = format!("{pole:?}")
+            .replace("Plus", "+")
+            .replace("Minus", "−");
+        let name = format!("{index} {}", axis.to_lowercase());
         assert!(PAGE.contains(&name), "{name}");
     }
 }

@@ -2,10 +2,11 @@
 //!
 //! The order is [`crate::gp`]'s; what is owned here is how the compilers are led to do it fast, which
 //! takes some shapes of the same sum. A host goes over the terms once and makes vectors of four lanes
-//! of the eight accumulators. A controller keeps all of four terms in registers: with eight at a time
-//! it loads more words ahead than it has registers for, and a term costs two instructions more. Hence
-//! there each half of the accumulators goes over the terms by itself, and the four are written out: a
-//! loop over them is unrolled at `opt-level = 3` alone.
+//! of the eight accumulators; compact terms it converts a block at a time before that. A controller
+//! keeps all of four terms in registers: with eight at a time it loads more words ahead than it has
+//! registers for, and a term costs two instructions more. Hence there each half of the accumulators goes
+//! over the terms by itself, and the four are written out: a loop over them is unrolled at
+//! `opt-level = 3` alone. Compact terms it takes one by one.
 
 use super::LANES;
 use super::terms::{Arrays, Number};
@@ -69,7 +70,13 @@ fn whole_rounds<K: Covariance<f32>, C: Number, W: Number>(
     if cfg!(target_os = "none") {
         in_halves(kernel, coordinates, weights, query)
     } else {
-        at_once(kernel, coordinates, weights, query)
+        let mut lanes = [0.0; LANES];
+        if size_of::<C>() == size_of::<f32>() {
+            at_once(kernel, coordinates, weights, query, &mut lanes);
+        } else {
+            in_blocks(kernel, coordinates, weights, query, &mut lanes);
+        }
+        lanes
     }
 }
 
@@ -81,16 +88,66 @@ fn at_once<K: Covariance<f32>, C: Number, W: Number>(
     [xs, ys, zs]: [Rounds<'_, C>; 3],
     ws: Rounds<'_, W>,
     query: [f32; 3],
-) -> [f32; LANES] {
-    let mut lanes = [0.0; LANES];
+    lanes: &mut [f32; LANES],
+) {
+    let mut sums = *lanes;
     for (((x, y), z), w) in xs.iter().zip(ys).zip(zs).zip(ws) {
         let [x, y, z] = [x, y, z].map(|numbers| numbers.map(C::read));
         let w = w.map(W::read);
-        for ((((lane, x), y), z), w) in lanes.iter_mut().zip(x).zip(y).zip(z).zip(w) {
+        for ((((lane, x), y), z), w) in sums.iter_mut().zip(x).zip(y).zip(z).zip(w) {
             *lane += w * kernel.between(query, [x, y, z]);
         }
     }
-    lanes
+    *lanes = sums;
+}
+
+/// Rounds that are converted at a time.
+const BLOCK: usize = 16;
+
+/// For hosts, of compact terms: converted a block at a time, because in the loop that uses them the
+/// compiler converts one by one, which takes longer than all the rest.
+#[inline(always)]
+fn in_blocks<K: Covariance<f32>, C: Number, W: Number>(
+    kernel: &K,
+    [xs, ys, zs]: [Rounds<'_, C>; 3],
+    ws: Rounds<'_, W>,
+    query: [f32; 3],
+    lanes: &mut [f32; LANES],
+) {
+    let blocks = xs.chunks(BLOCK).zip(ys.chunks(BLOCK));
+    let blocks = blocks.zip(zs.chunks(BLOCK)).zip(ws.chunks(BLOCK));
+    let [mut x, mut y, mut z, mut w] = [[[0.0; LANES]; BLOCK]; 4];
+    for (((xs, ys), zs), ws) in blocks {
+        let coordinates = [
+            converted(xs, &mut x),
+            converted(ys, &mut y),
+            converted(zs, &mut z),
+        ];
+        one_block(kernel, coordinates, converted(ws, &mut w), query, lanes);
+    }
+}
+
+/// Out of line for the reason that [`whole_rounds`] is.
+#[inline(never)]
+fn one_block<K: Covariance<f32>>(
+    kernel: &K,
+    coordinates: [Rounds<'_, f32>; 3],
+    weights: Rounds<'_, f32>,
+    query: [f32; 3],
+    lanes: &mut [f32; LANES],
+) {
+    at_once(kernel, coordinates, weights, query, lanes);
+}
+
+#[inline(never)]
+fn converted<'b, N: Number>(
+    from: Rounds<'_, N>,
+    to: &'b mut [[f32; LANES]; BLOCK],
+) -> Rounds<'b, f32> {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = from.map(N::read);
+    }
+    to.get(..from.len()).unwrap_or(to)
 }
 
 /// For controllers: the halves one after the other, each with a loop of its own.
@@ -225,7 +282,11 @@ mod tests {
         weights: Rounds<'_, W>,
         query: [f32; 3],
     ) {
-        let expected = at_once(kernel, coordinates, weights, query).map(f32::to_bits);
+        let [mut expected, mut blocks] = [[0.0; LANES]; 2];
+        at_once(kernel, coordinates, weights, query, &mut expected);
+        in_blocks(kernel, coordinates, weights, query, &mut blocks);
+        let expected = expected.map(f32::to_bits);
+        assert_eq!(blocks.map(f32::to_bits), expected);
         let halves = in_halves(kernel, coordinates, weights, query);
         assert_eq!(halves.map(f32::to_bits), expected);
         let terms = Arrays {

@@ -37,6 +37,14 @@ impl Number for Word {
     }
 }
 
+/// A number that was converted.
+impl Number for f32 {
+    #[inline(always)]
+    fn read(self) -> f32 {
+        self
+    }
+}
+
 /// A coordinate in grid steps.
 impl Number for u8 {
     #[inline(always)]

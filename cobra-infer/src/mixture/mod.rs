@@ -300,7 +300,8 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
         let mut best: Option<(f32, usize, Prediction)> = None;
         let mut asked = Window::NOTHING;
         let mut reach = self.reach.first;
-        loop {
+        // The second look reaches as far as the first one's answer asks for, and can only improve it.
+        for _ in 0..2 {
             let window = match validities {
                 Some(_) => self.reach.window(at, reach),
                 None => asked,
@@ -324,7 +325,8 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
                 if let Some(blend) = &blend {
                     excess = blend.excess(self.template.exponent(index, at));
                     weight = math::exp(-excess);
-                    if !(weight > 0.0) {
+                    let heard = weight > 0.0;
+                    if !heard {
                         continue;
                     }
                 }

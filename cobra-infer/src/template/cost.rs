@@ -7,7 +7,8 @@ use crate::mixture::Assignment;
 /// is summed.
 ///
 /// Each bound is reached by some point, and exceeded by none: not by one that is NaN, infinite, on
-/// a reference point or far away.
+/// a reference point or far away. With validity it need not be reached: components are silent in
+/// places, and those that cannot be the most probable are not asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Cost {

@@ -5,7 +5,7 @@
 
 use super::encode::byte_array;
 use super::source::{ComponentSource, ValiditySource};
-use super::wire::{BLOCK_SIDE, LEAF_LENGTH, ROW_LENGTH, VALIDITY_LENGTH};
+use super::wire::{BLOCK_SIDE, LEAF_LENGTH, MOST_BLOCKS, ROW_LENGTH, VALIDITY_LENGTH};
 use core::ops::Range;
 use serde::{Serialize, Serializer};
 
@@ -15,7 +15,8 @@ struct Blocks<'a>(ValiditySource<'a>);
 
 impl Blocks<'_> {
     fn along(self) -> u8 {
-        self.0.side / BLOCK_SIDE
+        // The length is asked for before the side is refused.
+        (self.0.side / BLOCK_SIDE).min(MOST_BLOCKS)
     }
 
     /// The block's cells, one bit each.

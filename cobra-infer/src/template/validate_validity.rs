@@ -2,11 +2,8 @@
 
 use super::error::TemplateError;
 use super::validity::{Row, Validities, Validity};
-use super::wire::{LEAF_LENGTH, ROW_LENGTH};
-use crate::validity::{BOX_STEPS, LARGEST_SIDE, Pole};
-
-/// Most blocks along a side.
-const MOST_BLOCKS: u8 = LARGEST_SIDE / super::wire::BLOCK_SIDE;
+use super::wire::{LEAF_LENGTH, MOST_BLOCKS, ROW_LENGTH};
+use crate::validity::{BOX_STEPS, Pole};
 
 pub(super) fn check(validities: &Validities<'_>, components: usize) -> Result<(), TemplateError> {
     let (expected, found) = (components, validities.records.len());

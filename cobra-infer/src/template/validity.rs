@@ -46,6 +46,9 @@ impl PartialEq for Validity<'_> {
     }
 }
 
+/// The rows of a component's blocks, and the cells of those that are mixed.
+type Run<'a> = (&'a [[u8; ROW_LENGTH]], &'a [[u8; LEAF_LENGTH]]);
+
 /// What a row of blocks says.
 #[derive(Clone, Copy)]
 pub(super) struct Row {
@@ -125,7 +128,7 @@ impl<'a> Validity<'a> {
     }
 
     /// Its rows and the cells of its mixed blocks, where they lie inside the section.
-    pub(super) fn run(&self) -> Option<(&'a [[u8; ROW_LENGTH]], &'a [[u8; LEAF_LENGTH]])> {
+    pub(super) fn run(&self) -> Option<Run<'a>> {
         let (_, rows) = self.rows();
         let behind = self.cells.get(usize::try_from(self.first()).ok()?..)?;
         let (rows, leaves) = behind.split_at_checked(usize::from(rows) * ROW_LENGTH)?;

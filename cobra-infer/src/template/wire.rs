@@ -4,6 +4,7 @@ use super::error::{Section, TemplateError};
 use crate::gp::compact::TERM_LENGTH;
 use crate::gp::{Terms, Word};
 use crate::unit::Unit;
+use crate::validity::LARGEST_SIDE;
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 use serde::{Deserialize, Serialize};
 
@@ -57,6 +58,9 @@ pub(super) type ValidityRecord = [Word; VALIDITY_WORDS];
 
 /// Cells along the side of a block.
 pub(super) const BLOCK_SIDE: u8 = 4;
+
+/// Most blocks along the side of a grid.
+pub(super) const MOST_BLOCKS: u8 = LARGEST_SIDE / BLOCK_SIDE;
 
 /// Bytes of a row of blocks: which are full, which are mixed, and how many mixed ones lie before it.
 pub(super) const ROW_LENGTH: usize = 5;

@@ -2,8 +2,10 @@
 
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
 use cobra_infer::template::{
-    ComponentSource, Precision, TemplateSource, TermsSource, encode, encoded_len,
+    ComponentSource, Precision, QualitySource, TemplateSource, TermsSource, ValiditySource, encode,
+    encoded_len,
 };
+use cobra_infer::validity::Pole;
 use cobra_infer::{EncodeError, Exponent, Kernel, Metric, Model, Unit};
 use nalgebra::Vector3;
 use proptest::collection::vec;
@@ -17,6 +19,35 @@ pub(crate) struct Part {
     pub(crate) hyperparameters: Hyperparameters,
     pub(crate) directions: Vec<UnitDirection>,
     pub(crate) weights: Vec<f32>,
+    /// In the place of directions and weights.
+    pub(crate) compact: Option<Compact>,
+    pub(crate) validity: Option<Valid>,
+}
+
+/// Compact terms.
+#[derive(Clone, Debug)]
+pub(crate) struct Compact {
+    pub(crate) directions: Vec<[i8; 3]>,
+    pub(crate) weights: Vec<i16>,
+    pub(crate) scale: f32,
+}
+
+/// Where a component may speak.
+#[derive(Clone, Debug)]
+pub(crate) struct Valid {
+    pub(crate) pole: Pole,
+    pub(crate) side: u8,
+    pub(crate) cells: Vec<bool>,
+    pub(crate) low: [u8; 3],
+    pub(crate) high: [u8; 3],
+}
+
+/// What was measured.
+#[derive(Clone, Debug)]
+pub(crate) struct Measured {
+    pub(crate) covered: f32,
+    pub(crate) deviations: [f32; 2],
+    pub(crate) unexplained: Vec<f32>,
 }
 
 #[derive(Clone, Debug)]
@@ -28,6 +59,7 @@ pub(crate) struct Content {
     pub(crate) diameter: f32,
     pub(crate) model: Model,
     pub(crate) parts: Vec<Part>,
+    pub(crate) quality: Option<Measured>,
 }
 
 impl Content {
@@ -40,11 +72,24 @@ impl Content {
                 sigma_hat: part.sigma_hat,
                 precision: part.precision,
                 hyperparameters: part.hyperparameters,
-                terms: TermsSource::Exact {
-                    directions: &part.directions,
-                    weights: &part.weights,
+                terms: match &part.compact {
+                    None => TermsSource::Exact {
+                        directions: &part.directions,
+                        weights: &part.weights,
+                    },
+                    Some(compact) => TermsSource::Compact {
+                        directions: &compact.directions,
+                        weights: &compact.weights,
+                        scale: compact.scale,
+                    },
                 },
-                validity: None,
+                validity: part.validity.as_ref().map(|valid| ValiditySource {
+                    pole: valid.pole,
+                    side: valid.side,
+                    cells: &valid.cells,
+                    low: valid.low,
+                    high: valid.high,
+                }),
             })
             .collect();
         let source = TemplateSource {
@@ -55,7 +100,12 @@ impl Content {
             diameter: self.diameter,
             model: self.model,
             components: &components,
-            quality: None,
+            quality: self.quality.as_ref().map(|measured| QualitySource {
+                covered: measured.covered,
+                deviation_max: measured.deviations[0],
+                deviation_rms: measured.deviations[1],
+                unexplained: &measured.unexplained,
+            }),
         };
         let mut bytes = vec![0; encoded_len(&source)];
         let length = encode(&source, &mut bytes)?;
@@ -85,6 +135,8 @@ impl Content {
             ][..count]
                 .to_vec(),
             weights: [0.5, -0.25, 0.75][..count].to_vec(),
+            compact: None,
+            validity: None,
         };
         Self {
             name: "nut".into(),
@@ -94,6 +146,7 @@ impl Content {
             diameter: 24.0,
             model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
             parts: vec![part(-2.0, 3), part(2.0, 2)],
+            quality: None,
         }
     }
 
@@ -156,6 +209,8 @@ pub(crate) fn part(kernel: Kernel, terms: usize) -> impl Strategy<Value = Part> 
                 },
                 directions,
                 weights,
+                compact: None,
+                validity: None,
             },
         )
 }
@@ -187,6 +242,7 @@ pub(crate) fn content() -> impl Strategy<Value = Content> {
                 diameter,
                 model,
                 parts,
+                quality: None,
             },
         )
 }

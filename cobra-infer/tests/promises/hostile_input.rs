@@ -127,6 +127,7 @@ proptest! {
         prop_assert!(!has_nan(&points, &report), "{points:?} {report:?}");
         prop_assert!(report.confidence >= 0.0 && report.threshold >= 0.0);
         prop_assert!(report.behind_camera <= report.points);
+        prop_assert!(report.uncovered <= report.points - report.behind_camera);
         prop_assert!((0.0..=1.0).contains(&report.inlier_share));
         if likelihood == Likelihood::Peak {
             prop_assert!(report.confidence <= 1.0 && report.threshold <= 1.0, "{report:?}");

@@ -4,6 +4,7 @@
 //! One binary, so that its helpers are compiled once. `tolerance` is the one table of what is
 //! allowed to differ.
 
+mod charts;
 mod content;
 mod decisions;
 mod geometry;
@@ -22,3 +23,5 @@ mod template_numbers;
 mod template_round_trip;
 mod template_sections;
 mod tolerance;
+mod uncovered;
+mod validity;

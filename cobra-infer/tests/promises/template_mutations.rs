@@ -1,6 +1,7 @@
 //! Damage that the checksum does not find: whatever loads can be used, without a panic and without
 //! a NaN.
 
+use crate::charts::{self, charts};
 use crate::content::{Content, content};
 use crate::scene::{
     COMPONENTS, EVERY_RULE, THRESHOLDS, at, correspondence, has_nan, pose, settings, stream,
@@ -79,7 +80,7 @@ proptest! {
 
     #[test]
     fn random_sections_never_panic(
-        bodies in vec((0_u16..6, 0_u16..2, vec(any::<u8>(), 0..120)), 0..6),
+        bodies in vec((0_u16..8, 0_u16..2, vec(any::<u8>(), 0..120)), 0..6),
     ) {
         let sections: Vec<Raw> = bodies
             .into_iter()
@@ -91,6 +92,20 @@ proptest! {
     #[test]
     fn damaged_bytes_with_the_right_checksum_never_panic(
         content in content(),
+        damage in vec((any::<Index>(), any::<u8>()), 1..6),
+    ) {
+        let mut bytes = content.encode();
+        for (place, value) in damage {
+            let length = bytes.len() - 16;
+            bytes[16 + place.index(length)] = value;
+        }
+        reseal(&mut bytes);
+        load_and_use(&bytes);
+    }
+
+    #[test]
+    fn damaged_charts_with_the_right_checksum_never_panic(
+        content in charts(),
         damage in vec((any::<Index>(), any::<u8>()), 1..6),
     ) {
         let mut bytes = content.encode();
@@ -121,7 +136,16 @@ proptest! {
 
 #[test]
 fn every_byte_at_its_extremes_with_the_right_checksum_never_panics() {
-    let bytes = Content::small().encode();
+    every_byte_at_its_extremes(&Content::small());
+}
+
+#[test]
+fn every_byte_of_a_chart_at_its_extremes_with_the_right_checksum_never_panics() {
+    every_byte_at_its_extremes(&charts::small());
+}
+
+fn every_byte_at_its_extremes(content: &Content) {
+    let bytes = content.encode();
     let mut loaded = 0;
     for place in 16..bytes.len() {
         for value in [0x00, 0x01, 0x7f, 0x80, 0xff, !bytes[place]] {
