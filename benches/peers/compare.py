@@ -1,0 +1,91 @@
+"""Runs the Python peers on the points that `cobra-train` was measured on, and compares."""
+
+import argparse
+import json
+import os
+import platform
+from importlib.metadata import version
+from pathlib import Path
+
+import authors
+import paper
+import points
+
+PACKAGES = ["gpytorch", "linear_operator", "numpy", "scikit-learn", "scipy", "torch"]
+
+
+def main():
+    """Measures, writes the JSON document, prints the tables."""
+    arguments = parse()
+    folder = arguments.folder
+    ours = json.loads((folder / "ours.json").read_text())
+    training, test = points.read(folder / "training.csv"), points.read(folder / "test.csv")
+    queries = test[: ours["queries"]]
+
+    def clustered(overlap):
+        return points.cluster(training, arguments.components, overlap, arguments.seed)
+
+    scoring = authors.measure(clustered(overlap=-1), queries, arguments.repetitions)
+    learned = paper.measure(
+        clustered(arguments.overlap), test, arguments.metric, arguments.iterations, arguments.seed
+    )
+    document = {
+        "recipe": {name: value for name, value in vars(arguments).items() if name != "folder"},
+        "threads_available": os.cpu_count(),
+        "versions": {
+            "python": platform.python_version(),
+            **{name: version(name) for name in PACKAGES},
+        },
+        "cobra": ours,
+        "authors_pipeline": scoring,
+        "gpytorch": learned,
+        "ratios": ratios(ours, scoring, learned),
+    }
+    (folder / "peers.json").write_text(json.dumps(document, indent=2) + "\n")
+    print(tables(document))
+
+
+def parse():
+    """The command line."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path, help="what `same-points` wrote and printed")
+    parser.add_argument("--components", type=int, default=16, help="k-means components")
+    parser.add_argument(
+        "--overlap",
+        type=float,
+        default=0.05,
+        help="GPyTorch's components reach farther by this share; none overlap if negative",
+    )
+    parser.add_argument("--metric", choices=paper.COORDINATES, default="angles")
+    parser.add_argument("--iterations", type=int, default=250, help="of Adam")
+    parser.add_argument("--repetitions", type=int, default=20, help="of scoring")
+    parser.add_argument("--seed", type=int, default=0)
+    return parser.parse_args()
+
+
+def ratios(ours, scoring, learned):
+    """How often the time of one goes into that of another."""
+    score = ours["scoring_seconds"]
+    return {
+        "training: GPyTorch / cobra": learned["training_seconds"] / ours["training_seconds"],
+        "scoring: authors' pipeline with deviation / cobra": scoring["with_deviation_seconds"]
+        / score,
+        "scoring: authors' pipeline, mean alone / cobra": scoring["mean_alone_seconds"] / score,
+        "scoring: distance to the mesh / cobra": ours["mesh_distance_seconds"] / score,
+        "scoring: cobra / nearest of the training points": score / ours["nearest_point_seconds"],
+    }
+
+
+def tables(document):
+    """Ratios and quality as Markdown."""
+    lines = ["| time | ratio |", "|---|--:|"]
+    lines += [f"| {name} | {ratio:.3g} |" for name, ratio in document["ratios"].items()]
+    lines += ["", "| quality on the test points | F | Chamfer × 10³ | rms |", "|---|--:|--:|--:|"]
+    for name in ("cobra", "gpytorch"):
+        of = document[name]
+        lines.append(f"| {name} | {of['f_score']:.2f} | {of['chamfer']:.4f} | {of['rms']:.4f} |")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    main()
