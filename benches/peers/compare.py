@@ -4,6 +4,8 @@ import argparse
 import json
 import os
 import platform
+import statistics
+import subprocess
 from importlib.metadata import version
 from pathlib import Path
 
@@ -17,10 +19,11 @@ PACKAGES = ["gpytorch", "linear_operator", "numpy", "scikit-learn", "scipy", "to
 def main():
     """Measures, writes the JSON document, prints the tables."""
     arguments = parse()
+    load = os.getloadavg()[0]
     folder = arguments.folder
-    ours = json.loads((folder / "ours.json").read_text())
+    before = run(arguments.program, arguments.mesh, folder)
     training, test = points.read(folder / "training.csv"), points.read(folder / "test.csv")
-    queries = test[: ours["queries"]]
+    queries = test[: before["queries"]]
 
     def clustered(overlap):
         return points.cluster(training, arguments.components, overlap, arguments.seed)
@@ -29,26 +32,32 @@ def main():
     learned = paper.measure(
         clustered(arguments.overlap), test, arguments.metric, arguments.iterations, arguments.seed
     )
+    after = run(arguments.program, arguments.mesh, folder)
+    ours = between(before, after)
     document = {
-        "recipe": {name: value for name, value in vars(arguments).items() if name != "folder"},
-        "threads_available": os.cpu_count(),
+        "recipe": vars(arguments),
+        "cores": os.cpu_count(),
+        "load": load,
         "versions": {
             "python": platform.python_version(),
             **{name: version(name) for name in PACKAGES},
         },
         "cobra": ours,
+        "cobra_before_and_after": [before, after],
         "authors_pipeline": scoring,
         "gpytorch": learned,
         "ratios": ratios(ours, scoring, learned),
     }
-    (folder / "peers.json").write_text(json.dumps(document, indent=2) + "\n")
+    (folder / "peers.json").write_text(json.dumps(document, indent=2, default=str) + "\n")
     print(tables(document))
 
 
 def parse():
     """The command line."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", type=Path, help="what `same-points` wrote and printed")
+    parser.add_argument("program", type=Path, help="`same-points`, built")
+    parser.add_argument("mesh", type=Path)
+    parser.add_argument("folder", type=Path, help="of the points and of peers.json")
     parser.add_argument("--components", type=int, default=16, help="k-means components")
     parser.add_argument(
         "--overlap",
@@ -61,6 +70,20 @@ def parse():
     parser.add_argument("--repetitions", type=int, default=20, help="of scoring")
     parser.add_argument("--seed", type=int, default=0)
     return parser.parse_args()
+
+
+def run(program, mesh, folder):
+    """What the example measures, and the points that it writes."""
+    done = subprocess.run([program, mesh, folder], check=True, stdout=subprocess.PIPE)
+    return json.loads(done.stdout)
+
+
+def between(before, after):
+    """The mean of each time: what else the machine does may change while the peers run."""
+    return {
+        name: statistics.mean([value, after[name]]) if name.endswith("_seconds") else value
+        for name, value in before.items()
+    }
 
 
 def ratios(ours, scoring, learned):
