@@ -15,6 +15,8 @@ import points
 
 PACKAGES = ["gpytorch", "linear_operator", "numpy", "scikit-learn", "scipy", "torch"]
 
+RECIPE = ["components", "overlap", "metric", "iterations", "repetitions", "seed"]
+
 
 def main():
     """Measures, writes the JSON document, prints the tables."""
@@ -35,7 +37,8 @@ def main():
     after = run(arguments.program, arguments.mesh, folder)
     ours = between(before, after)
     document = {
-        "recipe": vars(arguments),
+        "mesh": arguments.mesh.name,
+        "recipe": {name: getattr(arguments, name) for name in RECIPE},
         "cores": os.cpu_count(),
         "load": load,
         "versions": {
@@ -48,7 +51,7 @@ def main():
         "gpytorch": learned,
         "ratios": ratios(ours, scoring, learned),
     }
-    (folder / "peers.json").write_text(json.dumps(document, indent=2, default=str) + "\n")
+    (folder / "peers.json").write_text(json.dumps(document, indent=2) + "\n")
     print(tables(document))
 
 
