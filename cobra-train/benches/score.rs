@@ -1,20 +1,25 @@
 //! What scoring costs on one core, next to the two usual ways of asking how far points lie from a
-//! surface: the nearest of many surface points, and the distance to the mesh.
+//! surface, the nearest of many surface points and the distance to the mesh, and next to the
+//! posterior means of other crates; then under each kernel and each rule of assignment.
 
 mod support;
 
-use cobra_infer::{Assignment, Camera, Correspondence, Kernel, Pose, Settings, Template, score};
+use cobra_infer::{
+    Assignment, Camera, Correspondence, Kernel, Mixture, Pose, Settings, Template, score,
+};
 use cobra_train::demo::VIEW;
+use cobra_train::evaluate::evaluation_points;
 use cobra_train::pose::{ObservationNoise, disturb, observe};
 use cobra_train::progress::Silent;
 use cobra_train::random::{Purpose, stream};
-use cobra_train::surface::{BoundingSphere, Mesh, RayCaster, sample_visible};
-use cobra_train::train::{ReferencePoints, TrainOptions, train};
+use cobra_train::reference::Cluster;
+use cobra_train::surface::{BoundingSphere, Geometry, Mesh, RayCaster};
+use cobra_train::train::{LARGEST_TEMPLATE, ReferencePoints, TrainOptions, train};
 use criterion::Criterion;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use std::time::Duration;
-use support::{Object, Size, Table, objects};
+use support::{Component, Object, PEERS, Size, Table, components, objects, training_points};
 
 /// The most components that scorers here make room for.
 const COMPONENTS: usize = 16;
@@ -25,6 +30,10 @@ const POINTS_PER_CORRESPONDENCE: usize = 10;
 /// The estimate's error and the noise of what it saw, as shares of the object's radius: of the
 /// order that separates accepted from rejected poses.
 const ERROR: f64 = 0.02;
+
+/// Of peers' processes, of the order that is learned: what a prediction costs does not depend on
+/// it.
+const LENGTH_SCALE: f64 = 0.5;
 
 fn main() {
     let size = Size::from_arguments();
@@ -39,10 +48,100 @@ fn main() {
 }
 
 fn measure(criterion: &mut Criterion, object: &Object, size: &Size) {
-    let mesh = &object.mesh;
-    let sphere = mesh.bounding_sphere();
-    let caster = RayCaster::new(mesh);
-    let surface = training_points(mesh, &sphere, size);
+    let training = training_points(object, size);
+    measure_peers(criterion, object, &training, size);
+    measure_kernels(criterion, object, &training, size);
+}
+
+/// The default template, and everybody else, on the same points of the surface.
+fn measure_peers(
+    criterion: &mut Criterion,
+    object: &Object,
+    training: &[Point3<f64>],
+    size: &Size,
+) {
+    let sphere = object.mesh.bounding_sphere();
+    let geometry = Geometry::from(object.mesh.clone());
+    let trained =
+        train(&geometry, &size.default_options(), &Silent).expect("both objects can be trained");
+    let template = Template::from_bytes(&trained.bytes).expect("what was trained can be read");
+    let settings = Settings::with_delta((ERROR * sphere.radius) as f32);
+    let count = size.points / POINTS_PER_CORRESPONDENCE;
+    let points = evaluation_points(&geometry, count, 0).expect("both objects show their surface");
+    let single: Vec<Point3<f32>> = points.iter().map(|point| point.cast()).collect();
+
+    let mut group = criterion.benchmark_group(format!("score/{}", object.name));
+    let mut table = Table::new(&mut group, 50);
+    table.bench("cobra-infer", || {
+        let mixture = Mixture::<LARGEST_TEMPLATE>::new(&template, &settings)
+            .expect("the host has room for every template");
+        let found = single.iter().filter_map(|point| mixture.evaluate(point));
+        found.map(|found| found.likelihood).sum::<f32>()
+    });
+
+    let cloud: Vec<[f32; 3]> = training
+        .iter()
+        .map(|point| sphere.denormalise(point).cast::<f32>().into())
+        .collect();
+    let tree = ImmutableKdTree::<f32, 3>::new_from_slice(&cloud)
+        .expect("a sampled surface has no more points than a tree takes");
+    table.bench("kiddo: nearest training point", || {
+        let squared = single.iter().map(|point| {
+            tree.query(&<[f32; 3]>::from(*point))
+                .nearest_one::<SquaredEuclidean<f32>>()
+                .execute()
+                .distance
+        });
+        squared.sum::<f32>()
+    });
+    let caster = RayCaster::new(&object.mesh);
+    table.bench("parry3d: distance to the mesh", || {
+        let distances = points.iter().map(|point| caster.distance(point));
+        distances.sum::<f64>()
+    });
+
+    let unit: Vec<Point3<f64>> = points.iter().map(|p| sphere.normalise(p)).collect();
+    let components = components(training, size);
+    let queries: Vec<Vec<[f64; 3]>> = with_points(&components, &unit)
+        .iter()
+        .map(|component| component.directions_and_distances().0)
+        .collect();
+    for (name, fit) in PEERS {
+        let processes: Vec<_> = components
+            .iter()
+            .map(|component| fit(component, Some(LENGTH_SCALE)))
+            .collect();
+        table.bench(&format!("{name}: posterior mean"), || {
+            let asked = processes.iter().zip(&queries);
+            asked
+                .filter(|(_, directions)| !directions.is_empty())
+                .map(|(process, directions)| process(directions).iter().sum::<f64>())
+                .sum::<f64>()
+        });
+    }
+    table.print(&format!("{}, {count} surface points", object.name));
+    group.finish();
+}
+
+/// The same reference points with other points: each has those that are nearest to it.
+fn with_points(components: &[Component], points: &[Point3<f64>]) -> Vec<Component> {
+    let clusters: Vec<Cluster> = components
+        .iter()
+        .map(|component| Cluster::round(component.centre))
+        .collect();
+    Component::of(&clusters, points)
+}
+
+/// k-means components under each kernel and each rule of assignment, from correspondences on.
+fn measure_kernels(
+    criterion: &mut Criterion,
+    object: &Object,
+    training: &[Point3<f64>],
+    size: &Size,
+) {
+    let sphere = object.mesh.bounding_sphere();
+    let caster = RayCaster::new(&object.mesh);
+    let surface: Vec<Point3<f64>> = training.iter().map(|p| sphere.denormalise(p)).collect();
     let camera = Camera::new(
         VIEW.fx as f32,
         VIEW.fy as f32,
@@ -51,14 +150,10 @@ fn measure(criterion: &mut Criterion, object: &Object, size: &Size) {
     )
     .expect("the demonstration's camera is a pinhole");
     let (pose, correspondences) = estimate(&caster, &surface, &camera, &sphere, size);
-    let points: Vec<Point3<f32>> = correspondences
-        .iter()
-        .map(|c| camera.back_project(&pose, &c.pixel, &c.point).point)
-        .collect();
-    let templates = templates(mesh, size);
+    let templates = templates(&object.mesh, size);
     let settings = Settings::with_delta((ERROR * sphere.radius) as f32);
 
-    let mut group = criterion.benchmark_group(format!("score/{}", object.name));
+    let mut group = criterion.benchmark_group(format!("kernels/{}", object.name));
     let mut table = Table::new(&mut group, 50);
     let mut bench = |name: &str, bytes: &[u8], assignment| {
         let template = Template::from_bytes(bytes).expect("what was trained can be read");
@@ -82,46 +177,18 @@ fn measure(criterion: &mut Criterion, object: &Object, size: &Size) {
         Template::from_bytes(&templates[0]).expect("what was trained can be read")
     });
 
-    let cloud: Vec<[f32; 3]> = surface.iter().map(|p| p.cast::<f32>().into()).collect();
-    let tree = ImmutableKdTree::<f32, 3>::new_from_slice(&cloud)
-        .expect("a sampled surface has no more points than a tree takes");
-    table.bench("nearest training point", || {
-        let squared = points.iter().map(|point| {
-            tree.query(&<[f32; 3]>::from(*point))
-                .nearest_one::<SquaredEuclidean<f32>>()
-                .execute()
-                .distance
-        });
-        squared.sum::<f32>()
-    });
-    table.bench("distance to the mesh", || {
-        let distances = points.iter().map(|point| caster.distance(&point.cast()));
-        distances.sum::<f64>()
-    });
     table.print(&format!(
-        "{}, {} points, one core",
+        "{}, {} correspondences",
         object.name,
-        points.len()
+        correspondences.len()
     ));
     group.finish();
-}
-
-/// The points that [`train`] fits a template to, in the mesh's frame.
-fn training_points(mesh: &Mesh, sphere: &BoundingSphere, size: &Size) -> Vec<Point3<f64>> {
-    let unit = mesh.normalised(sphere);
-    let wanted = size.points + size.test_points;
-    sample_visible(&unit, &RayCaster::new(&unit), wanted, 0, Purpose::Training)
-        .expect("both objects show their surface")
-        .iter()
-        .take(size.points)
-        .map(|point| sphere.denormalise(&point.position))
-        .collect()
 }
 
 /// One template for each of [`Kernel::ALL`], all of them with the reference points of the first: a
 /// point then costs the same number of terms under each.
 fn templates(mesh: &Mesh, size: &Size) -> Vec<Vec<u8>> {
-    let mut options = size.train_options();
+    let mut options = size.kmeans_options();
     let mut templates = Vec::new();
     for kernel in Kernel::ALL {
         options.fit.model.kernel = kernel;

@@ -34,15 +34,22 @@ impl Size {
         }
     }
 
-    /// Options to train with.
-    pub(crate) fn train_options(&self) -> TrainOptions {
+    /// What `cobra train` does unless it is told otherwise.
+    pub(crate) fn default_options(&self) -> TrainOptions {
         TrainOptions {
             points: self.points,
             test_points: self.test_points,
+            ..TrainOptions::new("benchmark")
+        }
+    }
+
+    /// The same with k-means components, so many.
+    pub(crate) fn kmeans_options(&self) -> TrainOptions {
+        TrainOptions {
             reference_points: ReferencePoints::KMeans {
                 components: self.components,
             },
-            ..TrainOptions::new("benchmark")
+            ..self.default_options()
         }
     }
 }
