@@ -21,7 +21,10 @@ const WITNESSES: usize = 3;
 const DENSE: f64 = 10_000.0;
 
 /// The wanted width of a cell where the surface is: twice the paper's τ.
-const CELL_WIDTH: f64 = 0.02;
+pub const FINE_CELLS: f64 = 0.02;
+
+/// A width that takes half as many bytes, and lets a few more wrong points pass.
+pub const COARSE_CELLS: f64 = 0.03;
 
 /// The coarsest grid.
 const SMALLEST_SIDE: u8 = 12;
@@ -77,7 +80,8 @@ fn unit(pole: Pole, side: u8, cell: Cell, at: [f32; 2]) -> UnitVector3<f64> {
 /// own points and within 0.012 of that point's plane, both times `sparsity` along the surface.
 ///
 /// Only cells beside directions of own points are looked at. The grid's middle is the half axis
-/// nearest to the own points' mean direction, its cells about 0.02 wide at their median distance.
+/// nearest to the own points' mean direction, its cells about `cell_width` wide at their median
+/// distance, as far as [`LARGEST_SIDE`] allows.
 /// `None` where no cell is valid.
 #[must_use]
 pub fn verify(
@@ -85,11 +89,12 @@ pub fn verify(
     own: &[SurfacePoint],
     mean: impl Fn(&UnitVector3<f64>) -> f64,
     sparsity: f64,
+    cell_width: f64,
 ) -> Option<ValidCells> {
     let offsets: Vec<Vector3<f64>> = own.iter().map(|p| p.position - centre).collect();
     let directions: Vec<Vector3<f64>> = offsets.iter().map(|o| o.normalize()).collect();
     let pole = pole_of(&directions);
-    let side = side_of(&offsets);
+    let side = side_of(&offsets, cell_width);
     let by_direction = NearestPoints::new(&arrays(&directions));
     let positions: Vec<Vector3<f64>> = own.iter().map(|p| p.position.coords).collect();
     let by_position = NearestPoints::new(&arrays(&positions));
@@ -136,11 +141,11 @@ fn pole_of(directions: &[Vector3<f64>]) -> Pole {
 }
 
 /// Cells are square roots of 4π/side² wide, seen from the reference point.
-fn side_of(offsets: &[Vector3<f64>]) -> u8 {
+fn side_of(offsets: &[Vector3<f64>], cell_width: f64) -> u8 {
     let mut distances: Vec<f64> = offsets.iter().map(|o| o.norm()).collect();
     distances.sort_by(f64::total_cmp);
     let median = distances.get(distances.len() / 2).copied().unwrap_or(0.0);
-    let wanted = median * (4.0 * std::f64::consts::PI).sqrt() / CELL_WIDTH;
+    let wanted = median * (4.0 * std::f64::consts::PI).sqrt() / cell_width;
     let blocks = (wanted / 4.0).round().clamp(0.0, 255.0) as u8;
     (blocks.saturating_mul(4)).clamp(SMALLEST_SIDE, LARGEST_SIDE)
 }

@@ -26,6 +26,7 @@ use crate::gp::FittedGp;
 use crate::progress::Progress;
 use crate::reference::Cluster;
 use crate::surface::{BoundingSphere, Geometry, SurfacePoint};
+use crate::validity::FINE_CELLS;
 use assemble::{Frame, ScaledComponent};
 use cobra_infer::Template;
 use cobra_infer::gp::UnitDirection;
@@ -210,7 +211,7 @@ fn finished_parts(
 ) -> Result<Vec<Part>, TrainError> {
     let verified = frame.options.validity == Validity::Verified;
     let exact = if verified {
-        squeeze::verify_parts(frame, exact, training)?
+        squeeze::verify_parts(frame, exact, training, FINE_CELLS)?
     } else {
         exact
     };

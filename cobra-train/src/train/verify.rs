@@ -24,6 +24,7 @@ pub(super) fn validities(
     scaled: &[ScaledComponent],
     patches: &[Patch],
     training: &[SurfacePoint],
+    cell_width: f64,
 ) -> Result<Vec<Option<ScaledValidity>>, TrainError> {
     let bytes = frame.provisional(scaled)?;
     let template = Template::from_bytes(&bytes)?;
@@ -41,7 +42,7 @@ pub(super) fn validities(
                 sphere: frame.sphere,
             };
             let centre = patch.cluster.centre();
-            let cells = verify(&centre, &own, |u| speaker.mean(u), sparsity)?;
+            let cells = verify(&centre, &own, |u| speaker.mean(u), sparsity, cell_width)?;
             let (low, high) = speaker.around(&centre, &cells, &grid)?;
             Some(ScaledValidity { cells, low, high })
         })

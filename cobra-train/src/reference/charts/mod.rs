@@ -16,7 +16,7 @@ mod region;
 use crate::gp::{FitError, Hyperparameters};
 use crate::random::{Purpose, stream};
 use crate::surface::{NearestPoints, SurfacePoint};
-use crate::validity::{ValidCells, sparsity, verify};
+use crate::validity::{FINE_CELLS, ValidCells, sparsity, verify};
 use cover::Search;
 use nalgebra::Point3;
 use ownership::{Sighted, owners};
@@ -296,7 +296,7 @@ impl Candidate {
         let witnesses: Vec<SurfacePoint> = own.iter().map(|&m| samples.points[m]).collect();
         let sparsity = sparsity(samples.points.len());
         let mean = |direction: &_| process.mean(direction);
-        let Some(cells) = verify(&self.centre, &witnesses, mean, sparsity) else {
+        let Some(cells) = verify(&self.centre, &witnesses, mean, sparsity, FINE_CELLS) else {
             return Ok(None);
         };
         let speaks =
