@@ -1,8 +1,8 @@
 //! Fitting one component: from points around a reference point to directions and weights.
 
 use super::cholesky::{Cholesky, NotPositiveDefinite};
-use super::gram::{Coordinates, coordinates, covariances, gram};
-use super::optimise::{Learned, NOISE_FLOOR, Optimiser, OptimiserError, learn};
+use super::gram::{Coordinates, Hyperparameters, coordinates, covariances, gram};
+use super::optimise::{Learned, NOISE_FLOOR, Optimiser, OptimiserError, learn, learn_from};
 use cobra_infer::{Kernel, Model};
 use nalgebra::{Point3, UnitVector3};
 use rand::Rng;
@@ -10,6 +10,11 @@ use rand::seq::index;
 
 /// The most points one Gaussian process is fitted to: its Gram matrix then takes 1.2 GB.
 pub const LARGEST_GP: usize = 12_000;
+
+/// The largest ratio of signal to noise of a process that is fitted from known hyperparameters: a flat
+/// surface that is seen from the side is so smooth a function that its weights cancel, and `f32` sums
+/// of them are wrong by many σ̂.
+const LARGEST_RATIO: f64 = 1e5;
 
 /// A point nearer to its reference point than this has no usable direction (unit sphere).
 const SMALLEST_DISTANCE: f64 = 1e-4;
@@ -116,17 +121,36 @@ pub fn fit(
     options: &FitOptions,
     rng: &mut impl Rng,
 ) -> Result<FittedGp, FitError> {
+    fit_from(centre, points, options, None, rng)
+}
+
+/// As [`fit`], from hyperparameters that are known to be good where there are any and
+/// `options.optimiser` is L-BFGS-B ([`learn_from`]).
+///
+/// # Errors
+/// [`FitError`].
+pub fn fit_from(
+    centre: &Point3<f64>,
+    points: &[Point3<f64>],
+    options: &FitOptions,
+    known: Option<&Hyperparameters>,
+    rng: &mut impl Rng,
+) -> Result<FittedGp, FitError> {
     let data = TrainingData::new(centre, points, options.prior_mean)?;
     let found = data.targets.len();
     if found > LARGEST_GP {
         return Err(FitError::TooManyPoints { found });
     }
-    let (_, learned) = data.learn(options, rng)?;
+    let (_, mut learned) = data.learn(options, known, rng)?;
     let TrainingData {
         directions,
         targets,
         prior_mean,
     } = data;
+    if known.is_some() {
+        let h = &mut learned.hyperparameters;
+        h.noise_variance = h.noise_variance.max(h.signal_variance / LARGEST_RATIO);
+    }
     let h = &learned.hyperparameters;
     let points = Coordinates::new(options.model.metric, &directions);
     let factor = Cholesky::new(gram(options.model.kernel, h, &points))?;
@@ -160,7 +184,7 @@ pub fn explained(
     rng: &mut impl Rng,
 ) -> Result<usize, FitError> {
     let data = TrainingData::new(centre, points, options.prior_mean)?;
-    let (few, learned) = data.learn(options, rng)?;
+    let (few, learned) = data.learn(options, None, rng)?;
     let h = &learned.hyperparameters;
     let Model { metric, kernel } = options.model;
     let points = Coordinates::new(metric, &few.directions);
@@ -209,7 +233,12 @@ impl TrainingData {
     }
 
     /// The subset, and the hyperparameters that make it most probable.
-    fn learn(&self, options: &FitOptions, rng: &mut impl Rng) -> Result<(Self, Learned), FitError> {
+    fn learn(
+        &self,
+        options: &FitOptions,
+        known: Option<&Hyperparameters>,
+        rng: &mut impl Rng,
+    ) -> Result<(Self, Learned), FitError> {
         let found = self.targets.len();
         let subset = match options.subset {
             Subset::Points(count) => index::sample(rng, found, count.clamp(1, found)).into_vec(),
@@ -221,13 +250,13 @@ impl TrainingData {
             prior_mean: self.prior_mean,
         };
         let points = Coordinates::new(options.model.metric, &few.directions);
-        let learned = learn(
-            options.model.kernel,
-            &points,
-            &few.targets,
-            &options.optimiser,
-            options.noise_floor,
-        )?;
+        let (kernel, floor) = (options.model.kernel, options.noise_floor);
+        let learned = match (known, options.optimiser) {
+            (Some(known), Optimiser::Lbfgs) => {
+                learn_from(kernel, &points, &few.targets, known, floor)?
+            }
+            _ => learn(kernel, &points, &few.targets, &options.optimiser, floor)?,
+        };
         Ok((few, learned))
     }
 }

@@ -14,11 +14,13 @@ mod posterior;
 
 pub use cholesky::{Cholesky, NotPositiveDefinite};
 pub use compress::{Compressed, Uncompressed, compress};
-pub use fit::{FitError, FitOptions, FittedGp, LARGEST_GP, PriorMean, Subset, explained, fit};
+pub use fit::{
+    FitError, FitOptions, FittedGp, LARGEST_GP, PriorMean, Subset, explained, fit, fit_from,
+};
 pub use gram::{Coordinates, Hyperparameters, coordinates, covariance, covariances, gram};
 pub use likelihood::{LikelihoodAndGradient, negative_log_marginal_likelihood};
 pub use optimise::{
     AdamOptions, LARGEST_NOISE_FLOOR, Learned, NOISE_FLOOR, Optimiser, OptimiserError,
-    PAPER_NOISE_FLOOR, PlateauOptions, SearchBox, Start, StopReason, learn, search_box,
+    PAPER_NOISE_FLOOR, PlateauOptions, SearchBox, Start, StopReason, learn, learn_from, search_box,
 };
 pub use posterior::{Posterior, Prediction};

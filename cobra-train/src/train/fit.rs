@@ -8,6 +8,7 @@ use super::{ReferencePoints, TrainError, TrainOptions};
 use crate::gp::{self, FittedGp};
 use crate::progress::Progress;
 use crate::random::{Purpose, stream};
+use cobra_infer::{Exponent, Kernel, Metric, Model};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
@@ -35,6 +36,13 @@ pub(super) fn fit_all(
         ReferencePoints::Auto { .. } => LARGEST_CHART,
         _ => usize::MAX,
     };
+    let kin = matches!(
+        options.fit.model,
+        Model {
+            metric: Metric::Chord,
+            kernel: Kernel::RationalQuadratic(Exponent::One | Exponent::Half),
+        }
+    );
     progress.start("fitting components", patches.len() as u64);
     let fitted = patches
         .par_iter()
@@ -51,7 +59,10 @@ pub(super) fn fit_all(
                 .take(most)
                 .map(|&index| points[index])
                 .collect();
-            let fitted = gp::fit(&patch.cluster.centre(), &training, &options.fit, &mut rng);
+            // Of other kernels the same numbers mean something else.
+            let known = patch.known.as_ref().filter(|_| kin);
+            let centre = patch.cluster.centre();
+            let fitted = gp::fit_from(&centre, &training, &options.fit, known, &mut rng);
             progress.step();
             fitted.map_err(|source| TrainError::Fit { component, source })
         })

@@ -3,6 +3,7 @@
 //! Owns the overlap between components. Whose point a point is, is `reference::membership`'s rule.
 
 use super::TrainError;
+use crate::gp::Hyperparameters;
 use crate::reference::{Cluster, assign};
 use nalgebra::{Point3, distance};
 use rayon::prelude::*;
@@ -46,6 +47,8 @@ pub(super) struct Patch {
     pub(super) own: Vec<usize>,
     /// The points that it is fitted to, by rising index.
     pub(super) training: Vec<usize>,
+    /// Hyperparameters of the rational quadratic with α = ½ that explain them, where they are known.
+    pub(super) known: Option<Hyperparameters>,
 }
 
 /// Each cluster with its points; none for a cluster that none belongs to.
@@ -75,6 +78,7 @@ pub(super) fn patches(
                 cluster: *cluster,
                 own,
                 training,
+                known: None,
             }
         })
         .collect()

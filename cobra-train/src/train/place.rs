@@ -59,6 +59,7 @@ pub(super) fn place(
                 cluster: Cluster::round(chart.centre),
                 own: chart.own,
                 training: chart.training,
+                known: Some(chart.hyperparameters),
             })
             .collect());
     }

@@ -142,6 +142,59 @@ struct Found {
     stop: StopReason,
 }
 
+impl Found {
+    fn learned(&self, search_box: &SearchBox) -> Learned {
+        Learned {
+            hyperparameters: search_box.unpack(&self.logarithms),
+            likelihood_per_point: self.value,
+            iterations: self.iterations,
+            stop: self.stop,
+        }
+    }
+}
+
+/// Minimises L(θ)/n over [`search_box`] by L-BFGS-B from hyperparameters that are known to be good,
+/// whatever the box: from the start that the targets suggest, a search may end where all is noise.
+///
+/// # Errors
+/// As [`learn`].
+pub fn learn_from(
+    kernel: Kernel,
+    points: &Coordinates,
+    y: &[f64],
+    known: &Hyperparameters,
+    noise_floor: f64,
+) -> Result<Learned, OptimiserError> {
+    check(points, y, noise_floor)?;
+    let search_box = search_box(kernel, noise_floor);
+    let start = search_box.pack(known);
+    let objective = Objective {
+        kernel,
+        points,
+        y,
+        search_box: search_box.clone(),
+    };
+    let found = lbfgs::minimise(start, objective, lbfgs::ITERATIONS)?;
+    Ok(found.learned(&search_box))
+}
+
+fn check(points: &Coordinates, y: &[f64], noise_floor: f64) -> Result<(), OptimiserError> {
+    if y.is_empty() || y.len() != points.len() {
+        return Err(OptimiserError::Refused(format!(
+            "{} targets for {} directions",
+            y.len(),
+            points.len()
+        )));
+    }
+    if !(noise_floor > 0.0 && noise_floor <= LARGEST_NOISE_FLOOR) {
+        return Err(OptimiserError::Refused(format!(
+            "the noise floor must lie above 0 and be at most {LARGEST_NOISE_FLOOR}, found \
+             {noise_floor}"
+        )));
+    }
+    Ok(())
+}
+
 /// Minimises L(θ)/n over [`search_box`].
 ///
 /// `points` are the directions, `y` the targets, as many and at least one; `noise_floor` the least
@@ -156,19 +209,7 @@ pub fn learn(
     optimiser: &Optimiser,
     noise_floor: f64,
 ) -> Result<Learned, OptimiserError> {
-    if y.is_empty() || y.len() != points.len() {
-        return Err(OptimiserError::Refused(format!(
-            "{} targets for {} directions",
-            y.len(),
-            points.len()
-        )));
-    }
-    if !(noise_floor > 0.0 && noise_floor <= LARGEST_NOISE_FLOOR) {
-        return Err(OptimiserError::Refused(format!(
-            "the noise floor must lie above 0 and be at most {LARGEST_NOISE_FLOOR}, found \
-             {noise_floor}"
-        )));
-    }
+    check(points, y, noise_floor)?;
     let search_box = search_box(kernel, noise_floor);
     let start = |from: Start| from.logarithms(kernel, &search_box, y);
     let objective = Objective {
@@ -194,10 +235,5 @@ pub fn learn(
             }
         }
     };
-    Ok(Learned {
-        hyperparameters: search_box.unpack(&found.logarithms),
-        likelihood_per_point: found.value,
-        iterations: found.iterations,
-        stop: found.stop,
-    })
+    Ok(found.learned(&search_box))
 }

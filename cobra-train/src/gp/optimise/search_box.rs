@@ -91,6 +91,19 @@ impl SearchBox {
         }
     }
 
+    /// The logarithms of the free ones of `h`, brought into the box.
+    pub(super) fn pack(&self, h: &Hyperparameters) -> Vec<f64> {
+        let mut logarithms = vec![h.signal_variance.ln(), h.noise_variance.ln()];
+        if self.kernel.fixed_length_scale().is_none() {
+            logarithms.insert(0, h.length_scale.ln());
+        }
+        if self.kernel.fixed_parameter().is_none() {
+            logarithms.push(h.parameter.ln());
+        }
+        self.clamp(&mut logarithms);
+        logarithms
+    }
+
     /// Hyperparameters from the logarithms of the free ones.
     pub(super) fn unpack(&self, logarithms: &[f64]) -> Hyperparameters {
         let mut values = logarithms.iter().map(|logarithm| logarithm.exp());

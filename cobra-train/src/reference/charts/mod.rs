@@ -34,6 +34,9 @@ const ROUNDS: u64 = 12;
 /// When this share of the samples is left, it is left.
 const LEFT: f64 = 0.006;
 
+/// So many rounds that are no better, and no more are made.
+const PATIENCE: u64 = 3;
+
 /// A round that leaves less than this much less is no better.
 const WORTHWHILE: f64 = 0.001;
 
@@ -65,6 +68,8 @@ pub struct Chart {
     /// The samples that it is to be fitted to: its own and a ring around them, without those that
     /// it does not explain.
     pub training: Vec<usize>,
+    /// Hyperparameters of the rational quadratic with α = ½ under which it explains its samples.
+    pub hyperparameters: Hyperparameters,
 }
 
 /// Charts for the surface that `points` lie on, at most `most`; none where no piece of it can be
@@ -80,6 +85,7 @@ pub fn charts(points: &[SurfacePoint], most: usize, seed: u64) -> Result<Vec<Cha
     let mut candidates: Vec<Candidate> = Vec::new();
     let mut needy = vec![true; points.len()];
     let mut best: Option<(f64, Vec<Chart>)> = None;
+    let mut improved = 0;
     for round in 0..ROUNDS {
         if round + 1 < ROUNDS {
             let room = most.saturating_sub(candidates.len());
@@ -104,8 +110,9 @@ pub fn charts(points: &[SurfacePoint], most: usize, seed: u64) -> Result<Vec<Cha
                 .iter()
                 .filter_map(|candidate| candidate.fitted.as_ref());
             best = Some((left, charts.map(|fitted| fitted.chart.clone()).collect()));
+            improved = round;
         }
-        if left < LEFT {
+        if left < LEFT || round >= improved + PATIENCE {
             break;
         }
     }
@@ -186,7 +193,6 @@ struct Candidate {
 /// What a candidate came to in a round.
 struct Fitted {
     chart: Chart,
-    hyperparameters: Hyperparameters,
     /// The candidate's members that are explained, in a verified direction, by rising index.
     explained: Vec<usize>,
 }
@@ -213,7 +219,7 @@ impl Candidate {
         if own != self.judged {
             self.fitted = self.fit(samples, &own, other, index, seed)?;
             if let Some(fitted) = &self.fitted {
-                self.hyperparameters = Some(fitted.hyperparameters);
+                self.hyperparameters = Some(fitted.chart.hyperparameters);
             }
             self.judged = own;
         }
@@ -309,8 +315,8 @@ impl Candidate {
                 centre: self.centre,
                 own,
                 training,
+                hyperparameters: process.hyperparameters(),
             },
-            hyperparameters: process.hyperparameters(),
             explained: members()
                 .zip(explained)
                 .filter(|(_, explained)| *explained)
