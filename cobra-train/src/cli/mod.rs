@@ -6,6 +6,7 @@
 mod args;
 mod choices;
 mod coverage;
+mod covered;
 mod demo;
 mod eval;
 mod export;

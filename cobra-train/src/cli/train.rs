@@ -3,6 +3,7 @@
 use super::args::TrainArguments;
 use super::choices::{BudgetArgument, KernelArgument};
 use super::coverage;
+use super::covered::{self, DeviationDocument, RegionDocument};
 use super::failure::Failure;
 use super::learning;
 use super::object::{self, Object};
@@ -19,7 +20,7 @@ use cobra_train::progress::Progress;
 use cobra_train::reference::read_reference_points;
 use cobra_train::surface::{BoundingSphere, Geometry};
 use cobra_train::train::{
-    BUDGET, MOST_CHARTS, Overlap, ReferencePoints, TrainOptions, Trained, train,
+    BUDGET, MOST_CHARTS, Overlap, ReferencePoints, TrainOptions, Trained, Validity, train,
 };
 use serde::Serialize;
 use std::path::Path;
@@ -82,6 +83,7 @@ pub(super) fn run(arguments: &TrainArguments, terminal: &Terminal) -> Result<(),
         template.term_count(),
         trained.bytes.len()
     ))?;
+    terminal.print(&covered::text(&trained, &template))?;
     if let Some(coverage) = &coverage {
         let unit = template.unit().symbol();
         let points = match object.geometry {
@@ -273,6 +275,15 @@ struct Document<'a> {
     prior_mean: &'static str,
     /// Of the unit sphere.
     noise_floor: f64,
+    validity: &'static str,
+    /// `null` for the exact Gaussian process.
+    budget: Option<usize>,
+    /// `null` for the exact Gaussian process.
+    deviation: Option<DeviationDocument>,
+    /// Percent of the test points that the template predicts within tau.
+    covered: f64,
+    /// Where the others are, the largest region first.
+    uncovered: Vec<RegionDocument>,
     components: Vec<ComponentDocument>,
     #[serde(skip_serializing_if = "Option::is_none")]
     coverage: Option<&'a Coverage>,
@@ -290,6 +301,8 @@ struct ComponentDocument {
     sigma_hat: f32,
     terms: usize,
     test_points: usize,
+    /// Those of them that it does not predict within tau.
+    unexplained: usize,
     length_scale: f64,
     /// The kernel's parameter besides, such as the exponent; 1 where it has none.
     parameter: f64,
@@ -350,6 +363,14 @@ fn document<'a>(
             PriorMean::Zero => "zero",
         },
         noise_floor: options.fit.noise_floor,
+        validity: match options.validity {
+            Validity::Verified => "verified",
+            Validity::Everywhere => "everywhere",
+        },
+        budget: options.budget,
+        deviation: trained.deviation.map(DeviationDocument::from),
+        covered: 100.0 * trained.covered,
+        uncovered: trained.uncovered.iter().map(RegionDocument::from).collect(),
         coverage: None,
         components: template
             .components()
@@ -362,6 +383,7 @@ fn document<'a>(
                     sigma_hat: component.sigma_hat,
                     terms: component.terms.len(),
                     test_points: trained.test_points,
+                    unexplained: trained.unexplained,
                     length_scale: h.length_scale,
                     parameter: h.parameter,
                     prior_mean: component.hyperparameters.prior_mean,

@@ -1,0 +1,97 @@
+//! How `cobra train` tells what a template covers, what it leaves open and where.
+
+use cobra_infer::Template;
+use cobra_train::evaluate::TAU;
+use cobra_train::train::{Deviation, Trained, UncoveredRegion};
+use serde::Serialize;
+
+/// Regions that are told of in the text; JSON has all.
+const REGIONS: usize = 3;
+
+/// Smaller shares are not worth a line.
+const SMALLEST_SHARE: f64 = 0.001;
+
+/// How far the compressed mean is from the exact one, in units of sigma-hat.
+#[derive(Serialize)]
+pub(super) struct DeviationDocument {
+    max: f64,
+    rms: f64,
+}
+
+impl From<Deviation> for DeviationDocument {
+    fn from(Deviation { max, rms }: Deviation) -> Self {
+        Self { max, rms }
+    }
+}
+
+/// A part of the surface that no component reproduces, in the object's frame and unit.
+#[derive(Serialize)]
+pub(super) struct RegionDocument {
+    centre: [f64; 3],
+    reach: f64,
+    percent: f64,
+}
+
+impl From<&UncoveredRegion> for RegionDocument {
+    fn from(region: &UncoveredRegion) -> Self {
+        Self {
+            centre: region.centre.into(),
+            reach: region.reach,
+            percent: 100.0 * region.share,
+        }
+    }
+}
+
+/// The lines below the template's.
+pub(super) fn text(trained: &Trained, template: &Template<'_>) -> String {
+    let unit = template.unit().symbol();
+    let tau = TAU * f64::from(template.radius());
+    let mut lines = vec![format!(
+        "covered: {:.2} % of the surface, to within {} {unit}",
+        100.0 * trained.covered,
+        short(tau)
+    )];
+    let open = trained.uncovered.iter();
+    for region in open
+        .filter(|region| region.share >= SMALLEST_SHARE)
+        .take(REGIONS)
+    {
+        let [x, y, z]: [f64; 3] = region.centre.into();
+        lines.push(format!(
+            "not covered: {:.1} % within {} {unit} of ({}, {}, {})",
+            100.0 * region.share,
+            short(region.reach),
+            short(x),
+            short(y),
+            short(z)
+        ));
+    }
+    if let Some(deviation) = &trained.deviation {
+        lines.push(format!(
+            "compressed: {:.2} sigma-hat rms from the exact Gaussian process, {:.1} at most",
+            deviation.rms, deviation.max
+        ));
+    }
+    lines.join("\n")
+}
+
+/// Three digits, whatever the unit.
+fn short(length: f64) -> String {
+    if length == 0.0 {
+        return "0".to_owned();
+    }
+    let magnitude = length.abs().log10().floor();
+    let decimals = (2.0 - magnitude).clamp(0.0, 9.0) as usize;
+    format!("{length:.decimals$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn lengths_have_three_digits_in_any_unit() {
+        let found = [132.99, 1.3299, 0.001_329_9, -7.5, 0.0].map(short);
+        assert_eq!(found, ["133", "1.33", "0.00133", "-7.50", "0"]);
+    }
+}
