@@ -21,6 +21,10 @@ const RUN: usize = 4;
 /// with 14.
 const FEWEST_TERMS: usize = 64;
 
+/// A compressed template has no more components: as many as a controller makes room for unless it is
+/// told otherwise.
+const MOST_COMPONENTS: usize = 32;
+
 /// Bytes for what grows by a byte or two as lengths do.
 const SLACK: usize = 16;
 
@@ -45,10 +49,11 @@ pub(super) fn squeeze(
     let mut terms = loop {
         let fixed = fixed_bytes(frame, &parts)?;
         let room = budget.saturating_sub(fixed) / TERM;
-        if room >= FEWEST_TERMS * parts.len() {
+        let few_enough = parts.len() <= MOST_COMPONENTS;
+        if few_enough && room >= FEWEST_TERMS * parts.len() {
             break room;
         }
-        if verified && cell_width < COARSE_CELLS {
+        if few_enough && verified && cell_width < COARSE_CELLS {
             cell_width = COARSE_CELLS;
             parts = verify_parts(frame, parts, training, cell_width)?;
             continue;
