@@ -1,5 +1,6 @@
 //! How `cobra train` tells what a template covers, what it leaves open and where.
 
+use super::report::plural;
 use cobra_infer::Template;
 use cobra_train::evaluate::TAU;
 use cobra_train::train::{Deviation, Trained, UncoveredRegion};
@@ -64,6 +65,12 @@ pub(super) fn text(trained: &Trained, template: &Template<'_>) -> String {
             short(x),
             short(y),
             short(z)
+        ));
+    }
+    if trained.left_out > 0 {
+        lines.push(format!(
+            "left out: {}, to fit the budget",
+            plural(trained.left_out, "component")
         ));
     }
     if let Some(deviation) = &trained.deviation {

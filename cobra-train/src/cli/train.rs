@@ -284,6 +284,8 @@ struct Document<'a> {
     covered: f64,
     /// Where the others are, the largest region first.
     uncovered: Vec<RegionDocument>,
+    /// Components that were placed and did not fit.
+    left_out: usize,
     components: Vec<ComponentDocument>,
     #[serde(skip_serializing_if = "Option::is_none")]
     coverage: Option<&'a Coverage>,
@@ -370,6 +372,7 @@ fn document<'a>(
         budget: options.budget,
         deviation: trained.deviation.map(DeviationDocument::from),
         covered: 100.0 * trained.covered,
+        left_out: trained.left_out,
         uncovered: trained.uncovered.iter().map(RegionDocument::from).collect(),
         coverage: None,
         components: template

@@ -55,6 +55,9 @@ pub struct Trained {
     pub covered: f64,
     /// Where the others are, the largest region first.
     pub uncovered: Vec<UncoveredRegion>,
+    /// Components that were placed and are not in the template: they would not fit the budget, or may
+    /// speak nowhere.
+    pub left_out: usize,
     /// How far the compressed mean is from the exact one; `None` where it is the exact one.
     pub deviation: Option<Deviation>,
 }
@@ -131,6 +134,7 @@ pub fn train(
     let exact = exact_parts(patches, fitted, &sphere)?;
 
     step("compressing and verifying");
+    let placed = exact.len();
     let parts = finished_parts(&frame, exact, &training)?;
     done();
     step("measuring sigma-hat");
@@ -167,6 +171,7 @@ pub fn train(
         test_points: drawn.test.len(),
         covered: measured.covered,
         uncovered: uncovered::regions(&measured.uncovered, test.len(), sphere.radius),
+        left_out: placed - parts.len(),
         deviation,
         components: parts
             .into_iter()

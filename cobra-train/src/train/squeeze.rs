@@ -5,7 +5,7 @@
 
 use super::assemble::{Frame, ScaledComponent};
 use super::verify::validities;
-use super::{Part, TrainError};
+use super::{Part, ReferencePoints, TrainError};
 use crate::gp::{Uncompressed, compress};
 use crate::surface::SurfacePoint;
 use crate::validity::{COARSE_CELLS, FINE_CELLS};
@@ -32,8 +32,8 @@ const SLACK: usize = 16;
 const EXACT_TERM: usize = 16;
 
 /// Compresses the exact `parts` into `budget` bytes, the last section of `quality` bytes included.
-/// Where they have validity, it is verified anew. Parts that do not fit or may no longer speak anywhere
-/// are left out, those of fewest points first.
+/// Where they have validity, it is verified anew. Of charts those of fewest points are left out where
+/// too few terms remain for each; parts that may no longer speak anywhere are left out always.
 pub(super) fn squeeze(
     frame: &Frame<'_>,
     mut parts: Vec<Part>,
@@ -45,11 +45,13 @@ pub(super) fn squeeze(
     if model.metric != Metric::Chord {
         return Err(TrainError::BudgetNeedsChord);
     }
+    // How many components there are is the data's to say only where nobody else has.
+    let may_go = matches!(frame.options.reference_points, ReferencePoints::Auto { .. });
     let mut cell_width = FINE_CELLS;
     let mut terms = loop {
         let fixed = fixed_bytes(frame, &parts)?;
         let room = budget.saturating_sub(fixed) / TERM;
-        let few_enough = parts.len() <= MOST_COMPONENTS;
+        let few_enough = !may_go || parts.len() <= MOST_COMPONENTS;
         if few_enough && room >= FEWEST_TERMS * parts.len() {
             break room;
         }
@@ -63,12 +65,12 @@ pub(super) fn squeeze(
             .enumerate()
             .min_by_key(|(_, part)| part.patch.own.len());
         match least {
-            Some((least, _)) if parts.len() > 1 => {
+            Some((least, _)) if may_go && parts.len() > 1 => {
                 parts.remove(least);
             }
-            _ if room > 0 => break room,
+            _ if room >= parts.len() => break room,
             _ => {
-                let least = fixed + TERM;
+                let least = fixed + TERM * parts.len();
                 return Err(TrainError::Budget { budget, least });
             }
         }
