@@ -125,7 +125,7 @@ struct Views {
     camera: Camera,
     pose: Pose,
     correspondences: Vec<Correspondence>,
-    settings: Settings,
+    delta: f32,
 }
 
 impl Views {
@@ -159,24 +159,32 @@ impl Views {
             camera,
             pose,
             correspondences,
-            settings: Settings::with_delta((TOLERANCE * sphere.radius) as f32),
+            delta: (TOLERANCE * sphere.radius) as f32,
         }
     }
 
     /// Seconds to score the first so many pixels.
     fn scoring(&self, trained: &Trained, pixels: usize) -> f64 {
         let template = Template::from_bytes(&trained.bytes).expect("what was trained can be read");
+        let settings = self.settings(&template);
         let seen = &self.correspondences[..pixels];
         median(|| {
-            score::<LARGEST_TEMPLATE>(&template, &self.camera, &self.pose, &self.settings, seen)
+            score::<LARGEST_TEMPLATE>(&template, &self.camera, &self.pose, &settings, seen)
                 .expect("the host has room for every template")
         })
+    }
+
+    fn settings(&self, template: &Template<'_>) -> Settings {
+        Settings {
+            delta: self.delta,
+            ..Settings::for_template(template, 1.0)
+        }
     }
 
     fn f_score(&self, trained: &Trained) -> f64 {
         let template = Template::from_bytes(&trained.bytes).expect("what was trained can be read");
         let points = &self.points[..self.points.len().min(F_SCORE_POINTS)];
-        evaluate(&template, self.settings.assignment, points)
+        evaluate(&template, self.settings(&template).assignment, points)
             .expect("the host has room for every template")
             .shape
             .f_score

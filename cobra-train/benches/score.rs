@@ -65,7 +65,10 @@ fn measure_peers(
     let trained =
         train(&geometry, &size.default_options(), &Silent).expect("both objects can be trained");
     let template = Template::from_bytes(&trained.bytes).expect("what was trained can be read");
-    let settings = Settings::with_delta((ERROR * sphere.radius) as f32);
+    let settings = Settings {
+        delta: (ERROR * sphere.radius) as f32,
+        ..Settings::for_template(&template, 1.0)
+    };
     let count = size.points / POINTS_PER_CORRESPONDENCE;
     let points = evaluation_points(&geometry, count, 0).expect("both objects show their surface");
     let single: Vec<Point3<f32>> = points.iter().map(|point| point.cast()).collect();

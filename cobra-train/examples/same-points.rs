@@ -39,7 +39,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("expected a mesh".into());
     };
     let caster = RayCaster::new(surface);
-    let options = TrainOptions::new("same points");
+    // Clusters: others than charts are not trained on all points that are drawn.
+    let options = TrainOptions::clustered("same points", 16);
 
     let drawn = options.points + options.test_points;
     let training: Vec<Point3<f64>> =

@@ -8,7 +8,7 @@
 use crate::evaluate::residuals;
 use crate::gp::{NotPositiveDefinite, Posterior};
 use crate::train::Trained;
-use cobra_infer::{Assignment, ScoreError, Template, TemplateError};
+use cobra_infer::{ScoreError, Settings, Template, TemplateError};
 use nalgebra::{Point3, UnitVector3};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -81,14 +81,16 @@ pub fn half_width(share: f64) -> f64 {
     }
 }
 
-/// Measures coverage on surface points (object frame, template's unit), each spoken for by its
-/// nearest component, as in training.
+/// Measures coverage on surface points (object frame, template's unit), each spoken for by the
+/// component that scoring chooses ([`Settings::for_template`]); points that none may speak of are
+/// counted as unmatched.
 ///
 /// # Errors
 /// [`CoverageError`].
 pub fn coverage(trained: &Trained, points: &[Point3<f64>]) -> Result<Coverage, CoverageError> {
     let template = Template::from_bytes(&trained.bytes)?;
-    let matches = residuals(&template, Assignment::Nearest, points)?;
+    let chosen = Settings::for_template(&template, 1.0).assignment;
+    let matches = residuals(&template, chosen, points)?;
     let radius = f64::from(template.radius());
     let speakers = template
         .components()

@@ -149,3 +149,109 @@ fn side_of(offsets: &[Vector3<f64>], cell_width: f64) -> u8 {
     let blocks = (wanted / 4.0).round().clamp(0.0, 255.0) as u8;
     (blocks.saturating_mul(4)).clamp(SMALLEST_SIDE, LARGEST_SIDE)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of side 0.6 at z = 1, as a reference point at the origin sees it.
+    fn plane() -> Vec<SurfacePoint> {
+        (0..31 * 31)
+            .map(|i| SurfacePoint {
+                position: Point3::new(
+                    0.02 * f64::from(i % 31) - 0.3,
+                    0.02 * f64::from(i / 31) - 0.3,
+                    1.0,
+                ),
+                normal: Vector3::z_axis(),
+            })
+            .collect()
+    }
+
+    fn to_the_plane(u: &UnitVector3<f64>) -> f64 {
+        1.0 / u.z
+    }
+
+    fn verified(mean: impl Fn(&UnitVector3<f64>) -> f64, sparsity: f64) -> Option<ValidCells> {
+        verify(&Point3::origin(), &plane(), mean, sparsity, FINE_CELLS)
+    }
+
+    #[test]
+    fn a_plane_is_verified_where_its_points_are_and_not_beyond() {
+        let cells = verified(to_the_plane, 1.0).unwrap();
+        assert_eq!(cells.pole, Pole::PlusZ);
+        assert!(cells.side.is_multiple_of(4) && cells.side <= LARGEST_SIDE);
+        assert_eq!(cells.cells.len(), usize::from(cells.side).pow(2));
+        for point in plane() {
+            // A cell is as wide as this at the rim.
+            let inner = point.position.coords.xy().amax() < 0.28;
+            assert!(!inner || cells.contains(&point.position.coords));
+        }
+        for (x, y, z) in [
+            (0.5, 0.0, 1.0),
+            (0.0, -0.5, 1.0),
+            (1.0, 0.0, 0.0),
+            (0.0, 0.0, -1.0),
+        ] {
+            assert!(!cells.contains(&Vector3::new(x, y, z)), "{x} {y} {z}");
+        }
+    }
+
+    #[test]
+    fn cells_are_not_valid_where_the_prediction_is_wrong() {
+        let half = |u: &UnitVector3<f64>| to_the_plane(u) + if u.x < 0.0 { 0.05 } else { 0.0 };
+        let cells = verified(half, 1.0).unwrap();
+        assert!(cells.contains(&Vector3::new(0.15, 0.1, 1.0)));
+        assert!(!cells.contains(&Vector3::new(-0.15, 0.1, 1.0)));
+        let whole = verified(to_the_plane, 1.0).unwrap();
+        assert!(cells.count() < whole.count());
+        assert_eq!(verified(|u| to_the_plane(u) + 0.05, 1.0), None);
+        assert_eq!(verified(|u| -to_the_plane(u), 1.0), None);
+        assert_eq!(verified(|_| f64::NAN, 1.0), None);
+        assert_eq!(
+            verify(&Point3::origin(), &[], to_the_plane, 1.0, FINE_CELLS),
+            None
+        );
+    }
+
+    #[test]
+    fn the_directions_of_valid_cells_are_in_them() {
+        let cells = verified(to_the_plane, 1.0).unwrap();
+        for at in [[0.1, 0.1], [0.5, 0.5], [0.9, 0.2]] {
+            let directions: Vec<_> = cells.directions(at).collect();
+            assert_eq!(directions.len(), cells.count());
+            assert!(directions.iter().all(|u| cells.contains(&u.into_inner())));
+        }
+    }
+
+    #[test]
+    fn points_far_apart_are_looked_for_farther_away() {
+        assert_eq!(sparsity(10_000), 1.0);
+        assert_eq!(sparsity(1_000_000), 1.0);
+        assert_eq!(sparsity(2_500), 2.0);
+        assert_eq!(sparsity(0), 100.0);
+        // Between points that lie 0.1 apart there are gaps unless that is said.
+        let few: Vec<SurfacePoint> = plane()
+            .into_iter()
+            .enumerate()
+            .filter(|(i, _)| i % 31 % 5 == 0 && i / 31 % 5 == 0)
+            .map(|(_, point)| point)
+            .collect();
+        let count = |sparsity| {
+            let found = verify(&Point3::origin(), &few, to_the_plane, sparsity, FINE_CELLS);
+            found.map_or(0, |cells| cells.count())
+        };
+        assert!(count(3.0) > count(1.0));
+        assert!(count(3.0) > 4 * few.len());
+    }
+
+    #[test]
+    fn coarse_cells_are_fewer() {
+        // From so near that the finer grid is not the finest that there is.
+        let centre = Point3::new(0.0, 0.0, 0.8);
+        let with = |width| verify(&centre, &plane(), |u| 0.2 / u.z, 1.0, width).unwrap();
+        let (fine, coarse) = (with(FINE_CELLS), with(COARSE_CELLS));
+        assert!(coarse.side < fine.side && coarse.count() < fine.count());
+        assert!(coarse.contains(&Vector3::z()));
+    }
+}

@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release -p cobra-tests --example input-table -- FOLDER`.
 
-use cobra_infer::{Assignment, Template};
+use cobra_infer::{Settings, Template};
 use cobra_tests::data::files_below;
 use cobra_train::evaluate::{evaluate, evaluation_points};
 use cobra_train::progress::Silent;
@@ -39,8 +39,9 @@ fn row(path: &Path) -> Result<String, Box<dyn Error>> {
     };
     let trained = train(&object, &TrainOptions::new("object"), &Silent)?;
     let template = Template::from_bytes(&trained.bytes)?;
+    let chosen = Settings::for_template(&template, 1.0).assignment;
     let points = evaluation_points(&object, POINTS, 0)?;
-    let shape = evaluate(&template, Assignment::Nearest, &points)?.shape;
+    let shape = evaluate(&template, chosen, &points)?.shape;
     Ok(format!(
         "{holds} | {:.1} | {:.3}",
         shape.f_score, shape.chamfer

@@ -61,10 +61,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Eight reference points as k-means places them for the default kernel.
 fn centres(object: &Geometry) -> Result<Vec<Point3<f64>>, Box<dyn Error>> {
-    let mut options = TrainOptions::new("object");
-    options.reference_points = ReferencePoints::KMeans {
-        components: COMPONENTS,
-    };
+    let options = TrainOptions::clustered("object", COMPONENTS);
     let sphere = object.bounding_sphere();
     let trained = train(object, &options, &Silent)?;
     let clusters = trained.components.iter().map(|c| c.cluster.centre());
@@ -77,7 +74,7 @@ fn measured(
     model: Model,
     prior_mean: PriorMean,
 ) -> Result<String, Box<dyn Error>> {
-    let mut options = TrainOptions::new("object");
+    let mut options = TrainOptions::clustered("object", COMPONENTS);
     options.reference_points = ReferencePoints::Given(centres.to_vec());
     options.fit.model = model;
     options.fit.prior_mean = prior_mean;

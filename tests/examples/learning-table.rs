@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         for (exponent_name, exponent) in EXPONENTS {
             for (metric_name, metric) in METRICS {
                 for (prior_mean_name, prior_mean) in PRIOR_MEANS {
-                    let mut options = TrainOptions::new("table");
+                    let mut options = TrainOptions::clustered("table", 16);
                     options.fit.model = Model {
                         metric,
                         kernel: Kernel::RationalQuadratic(exponent),

@@ -66,7 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             Ok::<_, Box<dyn Error>>(bytes)
         };
         let template = write_new("cobra", &|| {
-            let mut options = TrainOptions::new("bracket");
+            let mut options = TrainOptions::clustered("bracket", 16);
             options.points = points;
             options.test_points = 2000;
             options.reference_points = reference_points.clone();

@@ -185,7 +185,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn trained(golden: &Golden) -> Result<Vec<u8>, Box<dyn Error>> {
-    let mut options = TrainOptions::new("bracket");
+    let mut options = TrainOptions::clustered("bracket", 16);
     options.points = golden.points;
     options.test_points = 2000;
     options.reference_points = (golden.place)(golden.components);

@@ -7,7 +7,7 @@ use cobra_train::evaluate::{evaluate, evaluation_points};
 use cobra_train::gp::{PriorMean, Subset};
 use cobra_train::progress::Silent;
 use cobra_train::surface::{Geometry, read_geometry};
-use cobra_train::train::{ReferencePoints, TrainOptions, train};
+use cobra_train::train::{TrainOptions, train};
 
 /// Worse ones first; those on one line are not told apart.
 const ORDER: [&[Kernel]; 3] = [
@@ -25,8 +25,7 @@ fn f_score(object: &Geometry, model: Model) -> f64 {
     let mut options = TrainOptions {
         points: 3000,
         test_points: 2000,
-        reference_points: ReferencePoints::KMeans { components: 8 },
-        ..TrainOptions::new("object")
+        ..TrainOptions::clustered("object", 8)
     };
     options.fit.model = model;
     options.fit.subset = Subset::Points(100);

@@ -97,7 +97,7 @@ fn trained_around(mesh: &Mesh, reference_points: ReferencePoints, seed: u64) -> 
     let options = TrainOptions {
         reference_points,
         seed,
-        ..TrainOptions::new("screwdriver")
+        ..TrainOptions::clustered("screwdriver", 16)
     };
     train(&mesh.clone().into(), &options, &Silent)
         .unwrap()

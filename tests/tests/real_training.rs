@@ -5,7 +5,7 @@ use cobra_tests::data::{files_below, real_data};
 use cobra_train::gp::Subset;
 use cobra_train::progress::Silent;
 use cobra_train::surface::read_geometry;
-use cobra_train::train::{ReferencePoints, TrainOptions, train};
+use cobra_train::train::{TrainOptions, train};
 use std::path::Path;
 
 fn outcome(path: &Path) -> Result<usize, String> {
@@ -13,8 +13,7 @@ fn outcome(path: &Path) -> Result<usize, String> {
     let mut options = TrainOptions {
         points: 1000,
         test_points: 2000,
-        reference_points: ReferencePoints::KMeans { components: 8 },
-        ..TrainOptions::new("mesh")
+        ..TrainOptions::clustered("mesh", 8)
     };
     // Whether it trains is asked, not how well.
     options.fit.subset = Subset::Points(50);

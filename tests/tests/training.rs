@@ -7,14 +7,13 @@ use cobra_train::demo::mechanical_part;
 use cobra_train::evaluate::{Evaluation, evaluate, evaluation_points};
 use cobra_train::progress::Silent;
 use cobra_train::surface::{Geometry, Mesh};
-use cobra_train::train::{ReferencePoints, TrainOptions, train};
+use cobra_train::train::{TrainOptions, train};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 fn options() -> TrainOptions {
-    let mut options = TrainOptions::new("part");
+    let mut options = TrainOptions::clustered("part", 10);
     options.points = 4000;
     options.test_points = 8000;
-    options.reference_points = ReferencePoints::KMeans { components: 10 };
     options
 }
 

@@ -199,6 +199,24 @@ impl<'a> Template<'a> {
         }
     }
 
+    /// How many bytes all terms take: directions, weights and, of compact ones, a scale a component.
+    #[must_use]
+    pub fn terms_len(&self) -> usize {
+        match self.values {
+            TermValues::Exact(quads) => quads.as_flattened().as_flattened().len(),
+            TermValues::Compact(bytes) => bytes.len(),
+        }
+    }
+
+    /// How many bytes it takes to say where the components may speak; 0 for everywhere.
+    #[must_use]
+    pub fn validity_len(&self) -> usize {
+        self.validities.map_or(0, |validities| {
+            let records = validities.records.as_flattened().as_flattened();
+            records.len() + validities.cells.len()
+        })
+    }
+
     /// The components, each read from its record as it is asked for.
     pub fn components(&self) -> impl ExactSizeIterator<Item = Component<'a>> + use<'a> {
         let values = self.values;

@@ -26,6 +26,8 @@ proptest! {
         prop_assert_eq!(template.component_count(), content.parts.len());
         let sizes = content.parts.iter().map(|part| part.weights.len());
         prop_assert_eq!(template.term_count(), sizes.clone().sum::<usize>());
+        prop_assert_eq!(template.terms_len(), 16 * template.term_count());
+        prop_assert_eq!(template.validity_len(), 0);
         prop_assert_eq!(template.cost().maximum, template.term_count());
         prop_assert_eq!(Some(template.cost().nearest), sizes.max());
         for (component, part) in template.components().zip(&content.parts) {

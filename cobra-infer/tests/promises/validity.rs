@@ -27,6 +27,13 @@ proptest! {
         prop_assert!(template.has_validity());
         let terms = content.parts.iter().map(|part| part.weights.len());
         prop_assert_eq!(template.term_count(), terms.sum::<usize>());
+        let (terms, count) = (template.term_count(), template.component_count());
+        let compact = 5 * terms + 4 * count;
+        let expected = if template.has_compact_terms() { compact } else { 16 * terms };
+        prop_assert_eq!(template.terms_len(), expected);
+        // A record each, a row of blocks at least, and no more than all rows of mixed blocks.
+        let rest = template.validity_len() - 16 * count;
+        prop_assert!((5 * count..=(5 * 16 + 2 * 256) * count).contains(&rest), "{}", rest);
         for (component, part) in template.components().zip(&content.parts) {
             let (read, written) = (component.validity.unwrap(), part.validity.as_ref().unwrap());
             prop_assert_eq!(read.pole(), written.pole);

@@ -1,7 +1,7 @@
 //! How much is computed: all of it under `cargo bench`, hardly any where benchmarks are only
 //! checked.
 
-use cobra_train::train::{ReferencePoints, TrainOptions};
+use cobra_train::train::TrainOptions;
 
 /// The size of the problem.
 #[derive(Clone, Copy)]
@@ -43,13 +43,12 @@ impl Size {
         }
     }
 
-    /// The same with k-means components, so many.
+    /// So many k-means components that speak everywhere, uncompressed.
     pub(crate) fn kmeans_options(&self) -> TrainOptions {
         TrainOptions {
-            reference_points: ReferencePoints::KMeans {
-                components: self.components,
-            },
-            ..self.default_options()
+            points: self.points,
+            test_points: self.test_points,
+            ..TrainOptions::clustered("benchmark", self.components)
         }
     }
 }

@@ -86,9 +86,9 @@ pub(crate) struct DemoArguments {
                   closed.\n\n\
                   Examples:\n  cobra train part.ply -o part.cobra\n  cobra train chair.glb -o \
                   chair.cobra\n  cobra train part.stl -o \
-                  part.cobra --unit m --components 24 --json -\n  cobra train part.obj -o \
+                  part.cobra --unit m --budget 8704 --json -\n  cobra train part.obj -o \
                   part.cobra --reference-points centres.txt\n  cobra train part.ply -o part.cobra \
-                  --reference-points em --sampling poisson"
+                  --reference-points em --components 24 --sampling poisson"
 )]
 pub(crate) struct TrainArguments {
     /// Mesh or point cloud: .ply, .obj, .stl, .off, .glb, .gltf or .xyz

@@ -90,7 +90,7 @@ fn judge(
         .map_err(|error| Failure::BadInput(format!("simulated pose: {error}")))?;
     let settings = Settings {
         delta: 0.01 * template.diameter(),
-        ..Settings::for_template(&template, 1.0)
+        ..Settings::for_template(template, 1.0)
     };
     let report = score::<LARGEST_TEMPLATE>(
         template,

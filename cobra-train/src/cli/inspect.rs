@@ -6,7 +6,7 @@ use super::outputs;
 use super::report::{JsonTarget, table};
 use super::template_file;
 use super::terminal::Terminal;
-use cobra_infer::template::{RECORD_LENGTH, VERSION};
+use cobra_infer::template::{Quality, RECORD_LENGTH, VERSION};
 use cobra_infer::{Assignment, Template};
 use cobra_train::export::features;
 use serde::Serialize;
@@ -44,9 +44,16 @@ struct Document {
     features: Vec<&'static str>,
     /// Whether components carry a precision Q_k of their own.
     precisions: bool,
+    /// Whether components speak only where they were verified.
+    validity: bool,
+    /// How terms are stored: `exact`, 16 bytes each, or `compact`, 5 bytes each and 4 a component.
+    encoding: &'static str,
     terms: usize,
     bytes: Bytes,
     kernel_evaluations_per_point: Evaluations,
+    /// What training measured on points that it did not learn from; `null` where the template does
+    /// not say.
+    quality: Option<QualityDocument>,
     components: Vec<ComponentDocument>,
 }
 
@@ -55,7 +62,22 @@ struct Bytes {
     total: usize,
     terms: usize,
     components: usize,
+    validity: usize,
     other: usize,
+}
+
+#[derive(Serialize)]
+struct QualityDocument {
+    /// Percent of the points that some component explains.
+    covered: f32,
+    /// How far compression moved the mean, in units of sigma-hat; `null` for exact terms.
+    deviation: Option<Deviation>,
+}
+
+#[derive(Serialize)]
+struct Deviation {
+    max: f32,
+    rms: f32,
 }
 
 #[derive(Serialize)]
@@ -72,13 +94,20 @@ struct ComponentDocument {
     parameter: f32,
     prior_mean: f32,
     terms: usize,
+    /// Percent of the points in its care that it does not explain; `null` where the template does not
+    /// say.
+    unexplained: Option<f32>,
 }
 
 impl Document {
     fn new(template: &Template<'_>, total: usize) -> Self {
-        let terms = template.term_count() * 16;
+        let terms = template.terms_len();
         let records = template.component_count() * RECORD_LENGTH;
+        let validity = template.validity_len();
         let cost = template.cost();
+        let quality = template.quality();
+        let compact = template.has_compact_terms();
+        let mut unexplained = quality.iter().flat_map(Quality::unexplained);
         Self {
             schema: 2,
             name: template.name().to_owned(),
@@ -92,17 +121,27 @@ impl Document {
             parameter: template.kernel().parameter_name(),
             features: features(template),
             precisions: template.has_precisions(),
+            validity: template.has_validity(),
+            encoding: if compact { "compact" } else { "exact" },
             terms: template.term_count(),
             bytes: Bytes {
                 total,
                 terms,
                 components: records,
-                other: total - terms - records,
+                validity,
+                other: total - terms - records - validity,
             },
             kernel_evaluations_per_point: Evaluations {
                 nearest_most: cost.of(Assignment::Nearest),
                 maximum: cost.of(Assignment::Maximum),
             },
+            quality: quality.map(|quality| QualityDocument {
+                covered: 100.0 * quality.covered,
+                deviation: compact.then_some(Deviation {
+                    max: quality.deviation_max,
+                    rms: quality.deviation_rms,
+                }),
+            }),
             components: template
                 .components()
                 .map(|component| ComponentDocument {
@@ -112,6 +151,7 @@ impl Document {
                     parameter: component.hyperparameters.parameter,
                     prior_mean: component.hyperparameters.prior_mean,
                     terms: component.terms.len(),
+                    unexplained: unexplained.next().map(|share| 100.0 * share),
                 })
                 .collect(),
         }
@@ -129,7 +169,7 @@ fn text(document: &Document) -> String {
         .enumerate()
         .map(|(index, component)| {
             let [x, y, z] = component.centre;
-            vec![
+            let mut row = vec![
                 index.to_string(),
                 format!("{x:.3}"),
                 format!("{y:.3}"),
@@ -137,18 +177,24 @@ fn text(document: &Document) -> String {
                 format!("{:.4}", component.sigma_hat),
                 component.terms.to_string(),
                 format!("{:.4}", component.length_scale),
-            ]
+            ];
+            row.extend(component.unexplained.map(|share| format!("{share:.2}")));
+            row
         })
         .collect();
-    let header = [
+    let (x_header, sigma_hat_header) = (format!("x ({unit})"), format!("sigma-hat ({unit})"));
+    let mut header = vec![
         "component",
-        &format!("x ({unit})"),
+        &x_header,
         "y",
         "z",
-        &format!("sigma-hat ({unit})"),
+        &sigma_hat_header,
         "terms",
         "length scale",
     ];
+    if document.quality.is_some() {
+        header.push("unexplained %");
+    }
     format!(
         "object      {}\n\
          unit        {unit}\n\
@@ -156,9 +202,10 @@ fn text(document: &Document) -> String {
          diameter    {:.3}\n\
          kernel      {}, {} metric\n\
          features    {} of cobra-infer, on the controller\n\
-         components  {}, {}\n\
-         terms       {}\n\
-         size        {} bytes: {} terms, {} component records, {} the rest\n\
+         components  {}, {}; they speak {}\n\
+         terms       {}, {}\n\
+         quality     {}\n\
+         size        {} bytes: {} terms, {} component records, {} validity, {} the rest\n\
          cost        kernel evaluations a point: at most {} (nearest), {} (max, soft)\n\n{}",
         document.name,
         document.radius,
@@ -172,13 +219,38 @@ fn text(document: &Document) -> String {
         } else {
             "near and far by Euclidean distance"
         },
+        if document.validity {
+            "where they were verified"
+        } else {
+            "everywhere"
+        },
         document.terms,
+        document.encoding,
+        document
+            .quality
+            .as_ref()
+            .map_or_else(|| "not told".to_owned(), quality_text),
         bytes.total,
         bytes.terms,
         bytes.components,
+        bytes.validity,
         bytes.other,
         evaluations.nearest_most,
         evaluations.maximum,
         table(&header, &[], &rows)
     )
+}
+
+fn quality_text(quality: &QualityDocument) -> String {
+    let covered = format!(
+        "{:.2} % of the points that training left out are explained",
+        quality.covered
+    );
+    match &quality.deviation {
+        Some(deviation) => format!(
+            "{covered}; compression moved the mean by {:.3} sigma-hat rms, {:.3} at most",
+            deviation.rms, deviation.max
+        ),
+        None => covered,
+    }
 }

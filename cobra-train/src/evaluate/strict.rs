@@ -209,3 +209,186 @@ fn predictions(template: &Template<'_>) -> Vec<Point3<f64>> {
 fn inside(part: u8) -> f32 {
     (f32::from(part) + 0.5) / f32::from(PER_SIDE)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::{Mesh, PointCloud, fibonacci_sphere};
+    use cobra_infer::gp::Hyperparameters;
+    use cobra_infer::template::{
+        ComponentSource, TemplateSource, TermsSource, ValiditySource, encode, encoded_len,
+    };
+    use cobra_infer::validity::{BOX_STEPS, Pole};
+    use cobra_infer::{Exponent, Kernel, Model, Unit};
+
+    const RADIUS: f64 = 50.0;
+    const SIDE: u8 = 64;
+
+    /// A template of a sphere around the origin: components of these distances there, which may speak
+    /// where `valid` says, or, of `None`, everywhere.
+    fn template(distances: &[f64], valid: Option<&[bool]>) -> Vec<u8> {
+        let directions = [UnitDirection::new_unchecked([0.0, 0.0, 1.0].into())];
+        let components: Vec<_> = distances
+            .iter()
+            .map(|distance| ComponentSource {
+                centre: [0.0; 3],
+                sigma_hat: 0.1,
+                precision: None,
+                hyperparameters: Hyperparameters {
+                    length_scale: 1.0,
+                    parameter: 1.0,
+                    prior_mean: *distance as f32,
+                },
+                terms: TermsSource::Exact {
+                    directions: &directions,
+                    weights: &[0.0],
+                },
+                validity: valid.map(|cells| ValiditySource {
+                    pole: Pole::PlusZ,
+                    side: SIDE,
+                    cells,
+                    low: [0; 3],
+                    high: [BOX_STEPS - 1; 3],
+                }),
+            })
+            .collect();
+        let source = TemplateSource {
+            name: "sphere",
+            unit: Unit::Millimetre,
+            centre: [0.0; 3],
+            radius: RADIUS as f32,
+            diameter: 2.0 * RADIUS as f32,
+            model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
+            components: &components,
+            quality: None,
+        };
+        let mut bytes = vec![0; encoded_len(&source)];
+        let length = encode(&source, &mut bytes).unwrap();
+        bytes.truncate(length);
+        bytes
+    }
+
+    fn everywhere() -> Vec<bool> {
+        vec![true; usize::from(SIDE).pow(2)]
+    }
+
+    fn points(count: usize) -> Vec<Point3<f64>> {
+        let directions = fibonacci_sphere(count).into_iter();
+        directions.map(|u| Point3::from(u.scale(RADIUS))).collect()
+    }
+
+    /// The sphere by triangles that leave it by no more than 10⁻³ of its radius.
+    fn faces() -> Geometry {
+        const ROWS: u32 = 60;
+        let vertices = (0..=ROWS)
+            .flat_map(|row| (0..2 * ROWS).map(move |column| (row, column)))
+            .map(|(row, column)| {
+                let [down, turn] =
+                    [row, column].map(|i| std::f64::consts::PI * f64::from(i) / f64::from(ROWS));
+                let [x, y] = [turn.cos(), turn.sin()].map(|t| t * down.sin());
+                Point3::from(Vector3::new(x, y, down.cos()) * RADIUS)
+            })
+            .collect();
+        let corner = |row: u32, column: u32| row * 2 * ROWS + column % (2 * ROWS);
+        let triangles = (0..ROWS)
+            .flat_map(|row| (0..2 * ROWS).map(move |column| (row, column)))
+            .flat_map(|(row, column)| {
+                let [a, b] = [corner(row, column), corner(row, column + 1)];
+                let [c, d] = [corner(row + 1, column), corner(row + 1, column + 1)];
+                [[a, c, b], [b, c, d]]
+            })
+            .collect();
+        Mesh::new(vertices, triangles).unwrap().into()
+    }
+
+    fn percent(bytes: &[u8], surface: &TrueSurface) -> WronglyAccepted {
+        let template = Template::from_bytes(bytes).unwrap();
+        wrongly_accepted(&template, Assignment::Maximum, surface, &points(4000), 0).unwrap()
+    }
+
+    #[test]
+    fn an_exact_template_accepts_nothing_off_the_surface() {
+        let surface = TrueSurface::new(&faces());
+        for valid in [None, Some(&everywhere()[..])] {
+            let found = percent(&template(&[RADIUS], valid), &surface);
+            // Not all that are moved leave the surface by 0.02.
+            assert!((1000..4000).contains(&found.points), "{found:?}");
+            assert_eq!(found.percent, 0.0);
+        }
+    }
+
+    #[test]
+    fn a_template_that_says_more_than_there_is_accepts_what_is_not_there() {
+        let surface = TrueSurface::new(&faces());
+        let distances = [RADIUS, 1.035 * RADIUS];
+        let found = percent(&template(&distances, Some(&everywhere())), &surface);
+        assert!((20.0..70.0).contains(&found.percent), "{found:?}");
+    }
+
+    #[test]
+    fn the_same_seed_moves_points_alike() {
+        let surface = TrueSurface::new(&faces());
+        let bytes = template(&[RADIUS], None);
+        let template = Template::from_bytes(&bytes).unwrap();
+        let with = |seed| {
+            let points = points(1000);
+            wrongly_accepted(&template, Assignment::Nearest, &surface, &points, seed).unwrap()
+        };
+        assert_eq!(with(3), with(3));
+        assert_ne!(with(3).points, with(4).points);
+    }
+
+    #[test]
+    fn the_own_cloud_of_a_sphere_is_the_sphere() {
+        let cloud = PointCloud::new(points(100_000)).unwrap();
+        for object in [faces(), Geometry::from(cloud)] {
+            let bytes = template(&[RADIUS], Some(&everywhere()));
+            let template = Template::from_bytes(&bytes).unwrap();
+            let own = own_cloud(&template, &TrueSurface::new(&object), &points(3000)).unwrap();
+            let cells = usize::from(SIDE).pow(2);
+            assert_eq!(own.points, usize::from(PER_SIDE).pow(2) * cells);
+            assert!(own.self_precision > 99.0, "{own:?}");
+            assert!(own.self_recall > 99.0, "{own:?}");
+            assert!(own.self_f_score > 99.0, "{own:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_said_is_not_recalled_and_what_is_wrong_is_not_precise() {
+        let surface = TrueSurface::new(&faces());
+        let own = |distances: &[f64], valid: &[bool]| {
+            let bytes = template(distances, Some(valid));
+            own_cloud(
+                &Template::from_bytes(&bytes).unwrap(),
+                &surface,
+                &points(3000),
+            )
+            .unwrap()
+        };
+        // The middle of the map is the half above: half of the square.
+        let half = i32::from(SIDE) / 2;
+        let upper: Vec<bool> = (0..i32::from(SIDE).pow(2))
+            .map(|place| {
+                let [row, column] = [place / (2 * half), place % (2 * half)];
+                let away = |index: i32| (2 * index + 1 - 2 * half).abs();
+                away(row) + away(column) <= 2 * half
+            })
+            .collect();
+        let above = own(&[RADIUS], &upper);
+        assert!(above.self_precision > 99.0, "{above:?}");
+        assert!((above.self_recall - 50.0).abs() < 4.0, "{above:?}");
+        let double = own(&[RADIUS, 0.9 * RADIUS], &everywhere());
+        assert!((double.self_precision - 50.0).abs() < 1.0, "{double:?}");
+        assert!(double.self_recall > 99.0, "{double:?}");
+        let wrong = own(&[0.9 * RADIUS], &everywhere());
+        assert_eq!((wrong.self_recall, wrong.self_f_score), (0.0, 0.0));
+    }
+
+    #[test]
+    fn a_template_that_speaks_everywhere_has_no_own_cloud() {
+        let bytes = template(&[RADIUS], None);
+        let template = Template::from_bytes(&bytes).unwrap();
+        let surface = TrueSurface::new(&faces());
+        assert_eq!(own_cloud(&template, &surface, &points(10)), None);
+    }
+}

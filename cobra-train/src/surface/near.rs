@@ -55,3 +55,46 @@ impl NearestPoints {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_come_first_and_never_more_than_there_are() {
+        let line: Vec<[f64; 3]> = (0..10).map(|i| [f64::from(i * i), 2.0, 0.0]).collect();
+        let tree = NearestPoints::new(&line);
+        let found = |count| -> Vec<(usize, f64)> {
+            tree.nearest(&[4.5, 2.0, 0.0], count)
+                .map(|near| (near.index, near.distance))
+                .collect()
+        };
+        assert_eq!(found(0), []);
+        assert_eq!(found(2), [(2, 0.5), (1, 3.5)]);
+        assert_eq!(found(100).len(), 10);
+        assert_eq!(tree.distance(&[4.0, 2.0, 3.0]), 3.0);
+    }
+
+    #[test]
+    fn of_no_points_nothing_is_near() {
+        let tree = NearestPoints::new(&[]);
+        assert_eq!(tree.nearest(&[0.0; 3], 5).count(), 0);
+        assert!(tree.distance(&[0.0; 3]).is_infinite());
+    }
+
+    #[test]
+    fn points_in_one_plane_and_points_in_one_place_are_found() {
+        // k-d trees dislike coordinates that occur often.
+        let plane: Vec<[f64; 3]> = (0..2500)
+            .map(|i| [f64::from(i % 50), f64::from(i / 50), 0.0])
+            .collect();
+        let tree = NearestPoints::new(&plane);
+        for (index, point) in plane.iter().enumerate() {
+            let nearest = tree.nearest(point, 5).next().map(|near| near.index);
+            assert_eq!(nearest, Some(index));
+        }
+        let same = NearestPoints::new(&[[1.0, 2.0, 3.0]; 500]);
+        assert_eq!(same.nearest(&[1.0, 2.0, 3.0], 40).count(), 40);
+        assert_eq!(same.distance(&[1.0, 2.0, 4.0]), 1.0);
+    }
+}

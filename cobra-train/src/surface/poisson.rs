@@ -275,4 +275,62 @@ mod tests {
         assert_eq!(with(1), with(3));
         assert_ne!(with(1), sample_poisson(&mesh, 500, 5));
     }
+
+    /// Points of a square of side 1, nine in ten of them in its left half.
+    fn uneven(count: usize) -> Vec<SurfacePoint> {
+        let mut rng = stream(6, Purpose::Training, 0);
+        (0..count)
+            .map(|index| {
+                let [s, t]: [f64; 2] = rng.random();
+                let left = index % 10 != 0;
+                let x = if left { 0.5 * s } else { 0.5 + 0.5 * s };
+                SurfacePoint {
+                    position: Point3::new(x, t, 0.0),
+                    normal: Vector3::z_axis(),
+                }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn what_is_thinned_lies_evenly() {
+        let points = uneven(6000);
+        let positions = |points: &[SurfacePoint]| -> Vec<Point3<f64>> {
+            points.iter().map(|point| point.position).collect()
+        };
+        let count = 300;
+        let kept = thin(points.clone(), count);
+        let nearest = nearest_distances(&positions(&kept));
+        let largest = largest_spacing(1.0, count);
+        let least = nearest.iter().copied().fold(f64::INFINITY, f64::min);
+        // Of as many that are taken as they come, some lie on top of one another.
+        let taken = nearest_distances(&positions(&points[..count]));
+        let least_taken = taken.iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(least > 0.5 * largest, "{}", least / largest);
+        assert!(least > 10.0 * least_taken, "{least} {least_taken}");
+        let left = kept.iter().filter(|point| point.position.x < 0.5).count();
+        assert!((120..=190).contains(&left), "{left}");
+    }
+
+    #[test]
+    fn what_is_thinned_keeps_its_order_and_its_number() {
+        let points = uneven(400);
+        for count in [0, 1, 99, 399] {
+            let kept = thin(points.clone(), count);
+            assert_eq!(kept.len(), count);
+            let mut rest = points.iter();
+            assert!(kept.iter().all(|point| {
+                rest.any(|other| (other.position, other.normal) == (point.position, point.normal))
+            }));
+        }
+        for enough in [400, 401, 5000] {
+            let kept = thin(points.clone(), enough);
+            let same = kept
+                .iter()
+                .zip(&points)
+                .all(|(a, b)| a.position == b.position);
+            assert!(same && kept.len() == points.len());
+        }
+        assert!(thin(Vec::new(), 3).is_empty());
+    }
 }

@@ -266,3 +266,6 @@ fn deviation(
         rms: (squares / count.max(1) as f64).sqrt(),
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,6 @@
 //! `cobra export`: what is written holds the template's bytes, and compiles.
 
-use crate::run::{command, succeed};
+use crate::run::{command, json, succeed};
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -47,13 +47,14 @@ fn rustc(scene: &Scene, edition: &str) -> Command {
 
 #[test]
 fn bin_is_the_template_byte_by_byte_in_a_file_and_in_a_pipe() {
-    let scene = Scene::trained();
-    let template = bytes(&scene.path("part.cobra"));
-    let written = exported(&scene, "bin", "copy.cobra", &[]);
-    assert!(bytes(&written) == template);
-    for more in [&[][..], &["-o", "-"]] {
-        let words = [&["export", "@part.cobra", "--format", "bin"][..], more].concat();
-        assert!(printed(command().args(scene.arguments(&words))) == template);
+    for scene in [Scene::trained(), Scene::charted()] {
+        let template = bytes(&scene.path("part.cobra"));
+        let written = exported(&scene, "bin", "copy.cobra", &[]);
+        assert!(bytes(&written) == template);
+        for more in [&[][..], &["-o", "-"]] {
+            let words = [&["export", "@part.cobra", "--format", "bin"][..], more].concat();
+            assert!(printed(command().args(scene.arguments(&words))) == template);
+        }
     }
 }
 
@@ -165,7 +166,15 @@ fn the_c_header_holds_the_bytes_in_every_standard_without_a_warning() {
 
 #[test]
 fn source_says_what_inspect_says() {
-    let scene = Scene::trained();
+    for scene in [Scene::trained(), Scene::charted()] {
+        says_what_inspect_says(&scene);
+    }
+}
+
+fn says_what_inspect_says(scene: &Scene) {
+    let words = ["inspect", "@part.cobra", "--json", "-"];
+    let document = json(&succeed(scene.arguments(&words)));
+    let components = document["components"].as_array().unwrap().len();
     let table = succeed(scene.arguments(&["inspect", "@part.cobra"])).stdout;
     let size = bytes(&scene.path("part.cobra")).len();
     for format in ["rust", "c"] {
@@ -179,7 +188,7 @@ fn source_says_what_inspect_says() {
         for fact in [
             &format!("bytes: {size}"),
             "unit of length: mm",
-            "components: 4",
+            &format!("components: {components}"),
         ] {
             assert!(text.contains(fact), "{fact}: {format}");
         }

@@ -1,13 +1,20 @@
 //! `cobra train`: how hyperparameters are learned, and what coverage says of the result.
 
 use crate::run::{json, refuse, succeed};
-use crate::scene::{FEW, Scene};
+use crate::scene::{FEW, KMEANS, Scene};
 
 fn words<'a>(more: &[&'a str]) -> Vec<&'a str> {
     let mut words = vec!["train", "@box.obj", "-o", "@part.cobra"];
     words.extend(FEW);
+    words.extend(KMEANS);
     words.extend(more);
     words
+}
+
+/// Without a word on components.
+fn default<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    let train = ["train", "@box.obj", "-o", "@part.cobra"];
+    [&train[..], &FEW, more].concat()
 }
 
 #[test]
@@ -30,7 +37,7 @@ fn adam_is_the_papers_recipe_unless_the_subset_says_otherwise() {
 #[test]
 fn the_default_is_lbfgs_on_300_points_about_the_average() {
     let scene = Scene::new();
-    let document = json(&succeed(scene.arguments(&words(&["--json", "-"]))));
+    let document = json(&succeed(scene.arguments(&default(&["--json", "-"]))));
     assert_eq!(document["optimiser"], "lbfgs");
     assert_eq!(document["subset"], 300);
     assert_eq!(document["prior_mean"], "average");
@@ -75,6 +82,8 @@ fn a_component_that_is_too_large_is_refused_before_it_is_learned_on() {
         "12500",
         "--test-points",
         "500",
+        "--reference-points",
+        "kmeans",
         "--components",
         "1",
         "--subset",

@@ -1,5 +1,6 @@
 //! The command `cobra`, run as its users run it.
 
+mod auto;
 mod camera_input;
 mod demo;
 mod eval;

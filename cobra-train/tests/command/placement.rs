@@ -1,14 +1,14 @@
 //! `cobra train`: where reference points lie, which points are drawn, how far components overlap.
 
 use crate::run::{command, json, refuse, run, succeed};
-use crate::scene::{FEW, Scene};
+use crate::scene::{CLUSTERED, FEW, KMEANS, Scene};
 use serde_json::{Value, json};
 
+const TRAIN: [&str; 4] = ["train", "@box.obj", "-o", "@part.cobra"];
+
+/// Of clusters; which is for `more` to say.
 fn words<'a>(more: &[&'a str]) -> Vec<&'a str> {
-    let mut words = vec!["train", "@box.obj", "-o", "@part.cobra"];
-    words.extend(FEW);
-    words.extend(more);
-    words
+    [&TRAIN[..], &FEW, &CLUSTERED, more].concat()
 }
 
 fn report(scene: &Scene, more: &[&str]) -> Value {
@@ -33,7 +33,7 @@ fn the_json_says_how_points_were_placed_and_drawn() {
         keys.map(|key| report[key].clone())
     };
     let expected = [json!("kmeans"), json!("cameras"), Value::Null];
-    assert_eq!(said(&[]), expected);
+    assert_eq!(said(&["--reference-points", "kmeans"]), expected);
     let more = [
         "--reference-points",
         "em",
@@ -68,15 +68,43 @@ fn every_way_trains_as_many_components_on_as_many_points() {
 }
 
 #[test]
-fn the_defaults_are_k_means_cameras_and_no_overlap() {
+fn the_defaults_are_auto_verified_compressed_cameras_and_no_overlap() {
     let scene = Scene::new();
     let bytes = |more: &[&str]| {
-        succeed(scene.arguments(&words(more)));
+        let words = [&TRAIN[..], &FEW, more].concat();
+        succeed(scene.arguments(&words));
         std::fs::read(scene.path("part.cobra")).unwrap()
     };
     let spelt = [
         "--reference-points",
-        "kmeans",
+        "auto",
+        "--max-components",
+        "64",
+        "--validity",
+        "verified",
+        "--budget",
+        "14336",
+        "--exponent",
+        "0.5",
+        "--sampling",
+        "cameras",
+        "--overlap",
+        "none",
+    ];
+    assert!(bytes(&[]) == bytes(&spelt));
+}
+
+#[test]
+fn clusters_are_16_drawn_by_cameras_without_overlap_unless_told_otherwise() {
+    let scene = Scene::new();
+    let bytes = |more: &[&str]| {
+        let words = [&TRAIN[..], &FEW, &["--reference-points", "kmeans"], more].concat();
+        succeed(scene.arguments(&words));
+        std::fs::read(scene.path("part.cobra")).unwrap()
+    };
+    let spelt = [
+        "--components",
+        "16",
         "--sampling",
         "cameras",
         "--overlap",
@@ -88,7 +116,10 @@ fn the_defaults_are_k_means_cameras_and_no_overlap() {
 #[test]
 fn overlap_trains_components_on_more_points() {
     let scene = Scene::new();
-    let with = |share: &str| terms(&report(&scene, &["--overlap", share]));
+    let with = |share: &str| {
+        let more = ["--reference-points", "kmeans", "--overlap", share];
+        terms(&report(&scene, &more))
+    };
     let (none, some, much) = (with("none"), with("0.05"), with("0.5"));
     assert!(
         none == 300 && none < some && some < much,
@@ -99,15 +130,17 @@ fn overlap_trains_components_on_more_points() {
 #[test]
 fn every_way_gives_the_same_bytes_whatever_the_number_of_threads() {
     let scene = Scene::new();
-    for more in [
-        ["--reference-points", "em"],
-        ["--sampling", "poisson"],
-        ["--sampling", "reference-points"],
-        ["--overlap", "0.05"],
+    let kmeans = [&TRAIN[..], &FEW, &KMEANS].concat();
+    for words in [
+        words(&["--reference-points", "em"]),
+        [&kmeans[..], &["--sampling", "poisson"]].concat(),
+        [&kmeans[..], &["--sampling", "reference-points"]].concat(),
+        [&kmeans[..], &["--overlap", "0.05"]].concat(),
+        [&TRAIN[..], &FEW, &["--sampling", "poisson"]].concat(),
     ] {
         let train = |threads: &str| {
             let mut command = command();
-            command.args(scene.arguments(&words(&more)));
+            command.args(scene.arguments(&words));
             assert!(
                 command
                     .env("RAYON_NUM_THREADS", threads)
@@ -117,7 +150,7 @@ fn every_way_gives_the_same_bytes_whatever_the_number_of_threads() {
             );
             std::fs::read(scene.path("part.cobra")).unwrap()
         };
-        assert!(train("1") == train("3"), "{more:?}");
+        assert!(train("1") == train("3"), "{words:?}");
     }
 }
 

@@ -5,12 +5,35 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use tempfile::TempDir;
 
-/// Few points and components: enough for a box, and quick.
-pub(crate) const FEW: [&str; 6] = [
-    "--points",
-    "300",
-    "--test-points",
-    "500",
+/// Few points: enough for a box, and quick.
+pub(crate) const FEW: [&str; 4] = ["--points", "300", "--test-points", "500"];
+
+/// More of them: enough for charts to cover a box.
+pub(crate) const MORE: [&str; 4] = ["--points", "2000", "--test-points", "1500"];
+
+/// Components that cluster the points and speak everywhere, as the paper's, and how many of them;
+/// reference points are to be asked for besides.
+pub(crate) const CLUSTERED: [&str; 8] = [
+    "--validity",
+    "everywhere",
+    "--budget",
+    "none",
+    "--exponent",
+    "1",
+    "--components",
+    "4",
+];
+
+/// [`CLUSTERED`] by k-means.
+pub(crate) const KMEANS: [&str; 10] = [
+    "--reference-points",
+    "kmeans",
+    "--validity",
+    "everywhere",
+    "--budget",
+    "none",
+    "--exponent",
+    "1",
     "--components",
     "4",
 ];
@@ -55,24 +78,38 @@ impl Scene {
         scene
     }
 
-    /// The scene with a template `part.cobra`, trained once for all tests.
+    /// The scene with a template `part.cobra` of k-means components, trained once for all tests.
     pub(crate) fn trained() -> Self {
         static TEMPLATE: OnceLock<Vec<u8>> = OnceLock::new();
+        Self::with(&TEMPLATE, |scene| scene.train(&[]))
+    }
+
+    /// The same with a template as training makes it unless told otherwise.
+    pub(crate) fn charted() -> Self {
+        static TEMPLATE: OnceLock<Vec<u8>> = OnceLock::new();
+        Self::with(&TEMPLATE, |scene| scene.train_charts(&[]))
+    }
+
+    fn with(template: &OnceLock<Vec<u8>>, train: impl FnOnce(&Self)) -> Self {
         let scene = Self::new();
-        let bytes = TEMPLATE.get_or_init(|| {
-            let scene = Self::new();
-            scene.train(&[]);
+        let bytes = template.get_or_init(|| {
+            train(&scene);
             std::fs::read(scene.path("part.cobra")).unwrap()
         });
         scene.write("part.cobra", bytes);
         scene
     }
 
-    /// Trains `part.cobra` from `box.obj`.
+    /// Trains `part.cobra` from `box.obj`, by k-means.
     pub(crate) fn train(&self, more: &[&str]) {
-        let mut arguments = self.arguments(&["train", "@box.obj", "-o", "@part.cobra"]);
-        arguments.extend(FEW.iter().chain(more).map(|word| (*word).to_owned()));
-        succeed(arguments);
+        let train = ["train", "@box.obj", "-o", "@part.cobra"];
+        succeed(self.arguments(&[&train[..], &FEW, &KMEANS, more].concat()));
+    }
+
+    /// Trains `part.cobra` from `box.obj`, with the options that stand unless told otherwise.
+    pub(crate) fn train_charts(&self, more: &[&str]) {
+        let train = ["train", "@box.obj", "-o", "@part.cobra"];
+        succeed(self.arguments(&[&train[..], &MORE, more].concat()));
     }
 
     pub(crate) fn folder(&self) -> &Path {

@@ -56,6 +56,28 @@ fn the_json_has_the_documented_keys() {
 }
 
 #[test]
+fn where_components_have_validity_the_likeliest_speaks() {
+    let scene = Scene::charted();
+    // The box is reproduced so well that 1 % of its diameter alone would be far above the residuals.
+    let noise = ["--noise", "1"];
+    let document = json(&succeed(
+        scene.score(&[&["--json", "-"][..], &noise].concat()),
+    ));
+    assert_eq!(document["assignment"], "max");
+    assert_eq!(document["poses"][0]["decision"], "accept");
+    assert_eq!(document["poses"][1]["decision"], "reject");
+    assert_eq!(
+        poses(&scene, &[&["--assignment", "max"][..], &noise].concat()),
+        document["poses"].as_array().unwrap()[..]
+    );
+    let [nearest, most] =
+        [&["--assignment", "nearest"][..], &[]].map(|more| confidences(&scene, more));
+    for (a, b) in nearest.iter().zip(&most) {
+        assert!(a <= b, "the maximum is the most generous: {a} {b}");
+    }
+}
+
+#[test]
 fn a_json_file_comes_beside_the_table() {
     let scene = Scene::trained();
     let outcome = succeed(scene.score(&["--json", "@scores.json"]));
@@ -140,6 +162,11 @@ fn extreme_lengths_give_numbers_all_the_same() {
 
 #[test]
 fn an_object_in_metres_scores_as_in_millimetres() {
+    scores_as_in_millimetres(Scene::train, 2e-3);
+    scores_as_in_millimetres(Scene::train_charts, 2e-2);
+}
+
+fn scores_as_in_millimetres(train: fn(&Scene, &[&str]), tolerance: f64) {
     let options = [
         &[][..],
         &["--delta", "2"],
@@ -148,7 +175,7 @@ fn an_object_in_metres_scores_as_in_millimetres() {
     ];
     let [millimetres, metres] = [(1.0, "mm"), (0.001, "m")].map(|(scale, unit)| {
         let scene = Scene::scaled(scale);
-        scene.train(&["--unit", unit]);
+        train(&scene, &["--unit", unit]);
         options.map(|more| {
             let poses = poses(&scene, more);
             assert_eq!(poses[0]["decision"], "accept", "{unit} {more:?}: {poses:?}");
@@ -160,7 +187,7 @@ fn an_object_in_metres_scores_as_in_millimetres() {
         })
     });
     for (a, b) in millimetres.iter().flatten().zip(metres.iter().flatten()) {
-        assert!((a - b).abs() < 2e-3, "{a} in mm, {b} in m");
+        assert!((a - b).abs() < tolerance, "{a} in mm, {b} in m");
     }
 }
 
@@ -183,10 +210,15 @@ fn every_exponent_scores() {
         let scene = Scene::new();
         let mut words = vec!["train", "@box.obj", "-o", "@part.cobra"];
         words.extend(FEW);
+        words.extend(["--reference-points", "kmeans", "--components", "4"]);
+        words.extend(["--validity", "everywhere", "--budget", "none"]);
         words.extend(["--exponent", exponent]);
         succeed(scene.arguments(&words));
-        let found = poses(&scene, &[]);
-        assert_eq!(found[0]["decision"], "accept", "{exponent}");
-        assert_eq!(found[1]["decision"], "reject", "{exponent}");
+        let clustered = poses(&scene, &[]);
+        scene.train_charts(&["--exponent", exponent]);
+        for found in [clustered, poses(&scene, &["--noise", "1"])] {
+            assert_eq!(found[0]["decision"], "accept", "{exponent}");
+            assert_eq!(found[1]["decision"], "reject", "{exponent}");
+        }
     }
 }

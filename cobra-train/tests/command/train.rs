@@ -18,10 +18,11 @@ fn the_json_has_the_documented_keys() {
     assert_eq!(document["name"], "box");
     assert_eq!(document["unit"], "mm");
     assert_eq!(document["points"], 300);
+    assert_eq!(document["reference_points"], "auto");
     let size = std::fs::metadata(scene.path("part.cobra")).unwrap().len();
     assert_eq!(document["bytes"], size);
     let components = document["components"].as_array().unwrap();
-    assert_eq!(components.len(), 4);
+    assert!(!components.is_empty());
     for component in components {
         for key in ["sigma_hat", "terms", "length_scale", "likelihood_per_point"] {
             assert!(component[key].is_number(), "{key}: {component}");
@@ -34,8 +35,14 @@ fn a_json_file_comes_beside_the_template_and_nothing_else_does() {
     let scene = Scene::new();
     let before = scene.names();
     let outcome = succeed(scene.arguments(&words(&["--json", "@report.json"])));
-    assert!(outcome.stdout.contains("4 components, 300 terms"));
-    serde_json::from_str::<serde_json::Value>(&scene.read("report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&scene.read("report.json")).unwrap();
+    let components = report["components"].as_array().unwrap();
+    let terms: u64 = components
+        .iter()
+        .map(|component| component["terms"].as_u64().unwrap())
+        .sum();
+    let said = format!("{} components, {terms} terms", components.len());
+    assert!(outcome.stdout.contains(&said), "{said}: {outcome:?}");
     let mut after = before;
     after.extend(["part.cobra".to_owned(), "report.json".to_owned()]);
     after.sort();
@@ -58,9 +65,9 @@ fn the_same_seed_gives_the_same_bytes_whatever_the_number_of_threads() {
     };
     let largest = u64::MAX.to_string();
     for seed in ["0", &largest] {
-        assert!(train("1", seed) == train("4", seed), "seed {seed}");
+        assert!(train("1", seed) == train("3", seed), "seed {seed}");
     }
-    assert!(train("4", "0") != train("4", "1"));
+    assert!(train("3", "0") != train("3", "1"));
 }
 
 #[test]
@@ -68,7 +75,8 @@ fn quiet_leaves_the_result_and_verbose_adds_to_the_remarks() {
     let scene = Scene::new();
     let quiet = succeed(scene.arguments(&words(&["-q"])));
     assert_eq!(quiet.stderr, "");
-    assert_eq!(quiet.stdout.lines().count(), 1);
+    let template = scene.path("part.cobra");
+    assert!(quiet.stdout.starts_with(template.to_str().unwrap()));
 
     // Twice the same vertex: a face without area.
     let flat = format!("{}f 1 1 2\n", scene.read("box.obj"));
@@ -86,6 +94,7 @@ fn quiet_leaves_the_result_and_verbose_adds_to_the_remarks() {
         "{}",
         verbose.stderr
     );
+    assert_eq!(quiet.stdout, normal.stdout);
     assert_eq!(normal.stdout, verbose.stdout);
 }
 
@@ -104,6 +113,8 @@ fn reference_points_come_from_a_file_with_as_many_components() {
         "500",
         "--reference-points",
         "@centres.txt",
+        "--validity",
+        "everywhere",
         "--json",
         "-",
     ];

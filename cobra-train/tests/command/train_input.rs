@@ -93,6 +93,8 @@ fn more_components_than_points_are_refused() {
         "@part.cobra",
         "--points",
         "5",
+        "--reference-points",
+        "kmeans",
         "--components",
         "6",
     ];

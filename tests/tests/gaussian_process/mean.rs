@@ -61,7 +61,7 @@ fn the_controllers_mean_is_the_hosts_to_a_hundredth_of_sigma_hat() {
     // Given ones: that k-means compares placements is not what is tested.
     let centres = [-0.4, 0.0, 0.4].map(|x| sphere.centre + Vector3::x() * (x * sphere.radius));
     for model in models() {
-        let mut options = TrainOptions::new("part");
+        let mut options = TrainOptions::clustered("part", 3);
         options.points = 450;
         options.test_points = 1000;
         options.reference_points = ReferencePoints::Given(centres.to_vec());

@@ -132,7 +132,7 @@ fn both_optimisers_reach_the_same_likelihood_in_13_of_16_components_of_a_real_sc
         Optimiser::Adam(unhindered()),
     ]
     .map(|optimiser| {
-        let mut options = TrainOptions::new("screwdriver");
+        let mut options = TrainOptions::clustered("screwdriver", 16);
         options.points = 1600;
         options.test_points = 300;
         options.fit.optimiser = optimiser;

@@ -355,3 +355,6 @@ fn median_magnitude(residuals: &[f64]) -> f64 {
     magnitudes.sort_by(f64::total_cmp);
     magnitudes.get(magnitudes.len() / 2).copied().unwrap_or(0.0)
 }
+
+#[cfg(test)]
+mod tests;
