@@ -62,9 +62,9 @@ pub enum TrainError {
     /// Compression is of directions on the chord.
     #[error("templates with the metric of angles cannot be compressed: use no budget")]
     BudgetNeedsChord,
-    /// Not even one component fits.
+    /// The components do not fit; of charts, not even one.
     #[error(
-        "a template of {budget} bytes holds no component of this object: {least} bytes are needed"
+        "{budget} bytes are too few for a template of this object: at least {least} are needed"
     )]
     Budget {
         /// What was asked for.
