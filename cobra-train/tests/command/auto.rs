@@ -212,20 +212,20 @@ fn ball(count: u32) -> Vec<[f64; 3]> {
 #[test]
 fn points_without_faces_and_without_normals_are_covered() {
     let scene = Scene::new();
-    let lines: String = ball(12_000)
+    let lines: String = ball(6000)
         .iter()
         .map(|[x, y, z]| format!("{x} {y} {z}\n"))
         .collect();
     scene.write("ball.xyz", &lines);
-    let header = "ply\nformat ascii 1.0\nelement vertex 12000\nproperty float x\n\
+    let header = "ply\nformat ascii 1.0\nelement vertex 6000\nproperty float x\n\
                   property float y\nproperty float z\nend_header\n";
     scene.write("ball.ply", format!("{header}{lines}"));
     for file in ["@ball.xyz", "@ball.ply"] {
         let said = succeed(scene.arguments(&["train", file, "-o", "@part.cobra"])).stderr;
-        let split = "9000 points for training, 3000 to measure sigma-hat";
+        let split = "4500 points for training, 1500 to measure sigma-hat";
         assert!(said.contains(split), "{said}");
         let document = evaluated(&scene, file);
-        assert_eq!(document["points"], 3000);
+        assert_eq!(document["points"], 1500);
         assert!(document["f_score"].as_f64().unwrap() > 75.0, "{document}");
         assert!(document["covered"].as_f64().unwrap() > 75.0, "{document}");
     }
