@@ -92,14 +92,18 @@ pub fn verify(
     cell_width: f64,
 ) -> Option<ValidCells> {
     let offsets: Vec<Vector3<f64>> = own.iter().map(|p| p.position - centre).collect();
-    let directions: Vec<Vector3<f64>> = offsets.iter().map(|o| o.normalize()).collect();
+    // A point at the centre has no direction.
+    let directions: Vec<Vector3<f64>> = offsets
+        .iter()
+        .filter_map(|offset| offset.try_normalize(0.0))
+        .collect();
     let pole = pole_of(&directions);
     let side = side_of(&offsets, cell_width);
     let by_direction = NearestPoints::new(&arrays(&directions));
     let positions: Vec<Vector3<f64>> = own.iter().map(|p| p.position.coords).collect();
     let by_position = NearestPoints::new(&arrays(&positions));
     // Two cells and a bit: cells beside own points, across the gaps that sampling leaves.
-    let beside = 2.3 * (4.0 * std::f64::consts::PI).sqrt() / f64::from(side);
+    let beside = sparsity * 2.3 * (4.0 * std::f64::consts::PI).sqrt() / f64::from(side);
     let cells: Vec<bool> = (0..side)
         .flat_map(|row| (0..side).map(move |column| Cell { column, row }))
         .map(|cell| {

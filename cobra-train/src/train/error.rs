@@ -64,7 +64,7 @@ pub enum TrainError {
     BudgetNeedsChord,
     /// The components do not fit; of charts, not even one.
     #[error(
-        "{budget} bytes are too few for a template of this object: at least {least} are needed"
+        "{budget} bytes are too few for a template of this object: about {least} are needed at least"
     )]
     Budget {
         /// What was asked for.
