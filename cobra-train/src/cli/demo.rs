@@ -4,9 +4,10 @@ use super::args::DemoArguments;
 use super::failure::Failure;
 use super::report::table;
 use super::terminal::Terminal;
-use cobra_infer::{Decision, Pose, Report, Settings, Template, score};
+use cobra_infer::{Decision, Pose, Report, Settings, Sigma, Template, score};
 use cobra_train::demo::{
-    ScoredPose, SimulatedEstimate, VIEW, draw, encode_png, mechanical_part, scorer_camera, simulate,
+    MEASUREMENT_NOISE, ScoredPose, SimulatedEstimate, VIEW, draw, encode_png, mechanical_part,
+    scorer_camera, simulate,
 };
 use cobra_train::output::write_whole;
 use cobra_train::progress::Progress;
@@ -90,6 +91,9 @@ fn judge(
         .map_err(|error| Failure::BadInput(format!("simulated pose: {error}")))?;
     let settings = Settings {
         delta: 0.01 * template.diameter(),
+        sigma: Sigma::Template {
+            noise: MEASUREMENT_NOISE as f32,
+        },
         ..Settings::for_template(template, 1.0)
     };
     let report = score::<LARGEST_TEMPLATE>(

@@ -20,4 +20,4 @@ pub use image::RgbImage;
 pub use part::mechanical_part;
 pub use picture::{PictureError, ScoredPose, Verdict, draw, encode_png};
 pub use render::{Look, Renderer};
-pub use simulate::{SimulatedEstimate, VIEW, scorer_camera, simulate};
+pub use simulate::{MEASUREMENT_NOISE, SimulatedEstimate, VIEW, scorer_camera, simulate};

@@ -25,10 +25,14 @@ pub const VIEW: Camera = Camera {
 /// Correspondences a pose.
 const CORRESPONDENCES: usize = 500;
 
+/// The standard deviation of the points that the simulated estimator finds, in millimetres: what the
+/// scorer is told as σ_m.
+pub const MEASUREMENT_NOISE: f64 = 1.0;
+
 /// Pixels as a good estimator finds them, every twentieth wrong.
 const NOISE: ObservationNoise = ObservationNoise {
     pixel: 0.7,
-    point: 1.0,
+    point: MEASUREMENT_NOISE,
     outliers: 0.05,
     outlier_pixel: 20.0,
 };
