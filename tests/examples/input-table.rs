@@ -1,4 +1,4 @@
-//! Trains every mesh and cloud below a folder with the command's defaults and prints the table of
+//! Trains every mesh and cloud below a folder with 16 k-means components and prints the table of
 //! `docs/INPUTS.md`: what each file holds, how well it comes out, or why it is refused.
 //!
 //! `cargo run --release -p cobra-tests --example input-table -- FOLDER`.
@@ -37,7 +37,7 @@ fn row(path: &Path) -> Result<String, Box<dyn Error>> {
         Geometry::Mesh(mesh) => format!("{} triangles", mesh.triangles().len()),
         Geometry::Cloud(cloud) => format!("{} points", cloud.points().len()),
     };
-    let trained = train(&object, &TrainOptions::new("object"), &Silent)?;
+    let trained = train(&object, &TrainOptions::clustered("object", 16), &Silent)?;
     let template = Template::from_bytes(&trained.bytes)?;
     let chosen = Settings::for_template(&template, 1.0).assignment;
     let points = evaluation_points(&object, POINTS, 0)?;
