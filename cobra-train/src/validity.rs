@@ -29,7 +29,7 @@ pub const COARSE_CELLS: f64 = 0.03;
 /// The coarsest grid.
 const SMALLEST_SIDE: u8 = 12;
 
-/// How much farther apart points lie than [`DENSE`] of them would; 1 for that many and more.
+/// How much farther apart points lie than 10,000 of them would; 1 for that many and more.
 #[must_use]
 pub fn sparsity(points: usize) -> f64 {
     (DENSE / points.max(1) as f64).sqrt().max(1.0)

@@ -99,11 +99,7 @@ fn rays_cannot_come_from_points_that_are_yet_to_be_placed() {
 fn a_budget_that_holds_no_component_is_refused_with_what_is_needed() {
     let scene = Scene::new();
     let words = [&TRAIN[..], &FEW, &["--budget", "10"]].concat();
-    let said = [
-        "box.obj",
-        "a template of 10 bytes holds no component",
-        "needed",
-    ];
+    let said = ["box.obj", "10 bytes are too few for a template", "needed"];
     refuse(scene.arguments(&words), 3, &said);
     assert!(!scene.path("part.cobra").exists());
 }
