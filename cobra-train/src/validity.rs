@@ -23,7 +23,7 @@ const DENSE: f64 = 10_000.0;
 /// The wanted width of a cell where the surface is: twice the paper's τ.
 pub const FINE_CELLS: f64 = 0.02;
 
-/// A width that takes half as many bytes, and lets a few more wrong points pass.
+/// A width that takes fewer bytes, and lets a few more wrong points pass.
 pub const COARSE_CELLS: f64 = 0.03;
 
 /// The coarsest grid.
