@@ -12,12 +12,14 @@
 
 use crate::kernel::{Covariance, Model, Visitor};
 use crate::math::{self, Real};
+use crate::validity::{self, Square};
 use nalgebra::{Unit, Vector3};
 use terms::Encoded;
 
 pub mod compact;
 #[cfg(test)]
 pub(crate) mod evaluations;
+pub mod map;
 mod sum;
 mod terms;
 
@@ -47,16 +49,36 @@ pub struct Hyperparameters {
 
 /// The posterior mean in direction `u`, in the template's unit.
 ///
-/// The order of summation is the module's. NaN where this build does not contain the model's kernel
-/// or metric, which [`crate::Template::from_bytes`] refuses.
+/// The order of summation is the module's, of a map [`map`]'s; a map does not ask for the model. NaN
+/// where this build does not contain the model's kernel or metric, which
+/// [`crate::Template::from_bytes`] refuses.
 #[must_use]
-#[inline(never)]
 pub fn posterior_mean(
     model: Model,
     hyperparameters: &Hyperparameters,
     terms: &Terms<'_>,
     u: &UnitDirection,
 ) -> f32 {
+    let square = terms
+        .map()
+        .map(|map| validity::square(map.pole(), [u.x, u.y, u.z]));
+    posterior_mean_at(model, hyperparameters, terms, u, square)
+}
+
+/// [`posterior_mean`], where a map need not project the direction once more: `square` is where it lies
+/// on the map of the component's directions, which a map cannot do without.
+#[inline(never)]
+pub(crate) fn posterior_mean_at(
+    model: Model,
+    hyperparameters: &Hyperparameters,
+    terms: &Terms<'_>,
+    u: &UnitDirection,
+    square: Option<Square>,
+) -> f32 {
+    if let Some(map) = terms.map() {
+        let above = square.map_or(f32::NAN, |square| map.above_prior(square));
+        return hyperparameters.prior_mean + above;
+    }
     let Some(mut query) = model.metric.coordinates([u.x, u.y, u.z]) else {
         return f32::NAN;
     };
@@ -86,6 +108,8 @@ impl Visitor<f32> for WeightedSum<'_> {
         let kernel = evaluations::Counted(kernel);
         match terms.0 {
             Encoded::Exact(quads) => sum::weighted_sum(&kernel, terms::exact(quads), query),
+            // It was asked before.
+            Encoded::Map(_) => f32::NAN,
             Encoded::Compact { scale, bytes } => {
                 scale * sum::weighted_sum(&kernel, terms::compact(bytes), query)
             }

@@ -84,21 +84,31 @@ pub struct Cell {
     pub row: u8,
 }
 
-/// The cell that the direction of `offset` falls into, of a grid of `side`² cells: with
-/// s = (|a| + |b|) + |c|, p = a·(1/s), q = b·(1/s), and for c < 0 the folded
-/// (1 − |q|)·sign p, (1 − |p|)·sign q in their place (of 0 the sign is +), column and row are
-/// ⌊(p + 1)·(side/2)⌋ and ⌊(q + 1)·(side/2)⌋, at most side − 1.
+/// (p, q): where a direction lies on the octahedral map, from −1 to 1.
+pub type Square = [f32; 2];
+
+/// Where the direction of `offset` lies: with s = (|a| + |b|) + |c|, p = a·(1/s), q = b·(1/s), and for
+/// c < 0 the folded (1 − |q|)·sign p, (1 − |p|)·sign q in their place (of 0 the sign is +).
 ///
-/// The offset need not be of any length. One that is 0 or not finite falls into some cell.
+/// The offset need not be of any length. One that is 0 or not finite lies nowhere.
+// Out of line: scoring asks it in several places.
 #[must_use]
-#[inline]
-pub fn cell(pole: Pole, side: u8, offset: [f32; 3]) -> Cell {
+#[inline(never)]
+pub fn square(pole: Pole, offset: [f32; 3]) -> Square {
     let [a, b, c] = pole.turn(offset);
     let inverse = 1.0 / ((math::abs(a) + math::abs(b)) + math::abs(c));
     let (mut p, mut q) = (a * inverse, b * inverse);
     if c < 0.0 {
         (p, q) = (folded(p, q), folded(q, p));
     }
+    [p, q]
+}
+
+/// The cell of a grid of `side`² cells that holds a place: column and row are ⌊(p + 1)·(side/2)⌋ and
+/// ⌊(q + 1)·(side/2)⌋, at most side − 1. What lies nowhere falls into some cell.
+#[must_use]
+#[inline]
+pub fn cell_at(side: u8, [p, q]: Square) -> Cell {
     let half = 0.5 * f32::from(side);
     // Rust's conversion rounds down what is not negative, and takes NaN for 0.
     let index = |t: f32| (((t + 1.0) * half) as u8).min(side.saturating_sub(1));
@@ -106,6 +116,13 @@ pub fn cell(pole: Pole, side: u8, offset: [f32; 3]) -> Cell {
         column: index(p),
         row: index(q),
     }
+}
+
+/// The cell that the direction of `offset` falls into, of a grid of `side`² cells.
+#[must_use]
+#[inline]
+pub fn cell(pole: Pole, side: u8, offset: [f32; 3]) -> Cell {
+    cell_at(side, square(pole, offset))
 }
 
 /// (1 − |other|)·sign t.

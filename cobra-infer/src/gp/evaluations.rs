@@ -19,6 +19,11 @@ impl<K: Covariance<f32>> Covariance<f32> for Counted<K> {
     }
 }
 
+/// Counts what is no kernel's.
+pub(super) fn add(evaluations: usize) {
+    MADE.set(MADE.get() + evaluations);
+}
+
 /// What `act` returns, and how many evaluations this thread made in it.
 pub(crate) fn during<R>(act: impl FnOnce() -> R) -> (R, usize) {
     let before = MADE.get();

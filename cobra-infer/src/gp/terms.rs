@@ -1,13 +1,15 @@
 //! A component's directions and weights where they lie.
 //!
-//! Owns their two encodings, and that all arrays of a component are of one length without a check
-//! for each; the sum over them is [`super::sum`]'s.
+//! Owns their encodings, and that all arrays of a component are of one length without a check
+//! for each; the sum over them is [`super::sum`]'s, a map in their place [`super::map`]'s.
 
 use super::Word;
 use super::compact::{GRID, TERM_LENGTH};
+use super::map::Map;
 
 /// The directions and weights of one component: four borrowed arrays of the same length behind each
-/// other, at any alignment; each a run of little-endian `f32`, or compact ([`super::compact`]).
+/// other, at any alignment; each a run of little-endian `f32`, or compact ([`super::compact`]). Or the
+/// nodes of a map in their place ([`super::map`]).
 ///
 /// A direction lies in the coordinates of the template's metric: a unit vector, or (φ, θ, 0).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +24,7 @@ pub(super) enum Encoded<'a> {
         scale: f32,
         bytes: &'a [[u8; TERM_LENGTH]],
     },
+    Map(Map<'a>),
 }
 
 /// A number as it lies in a template.
@@ -108,6 +111,20 @@ impl<'a> Terms<'a> {
         Self(Encoded::Compact { scale, bytes })
     }
 
+    #[inline]
+    pub(crate) const fn from_map(map: Map<'a>) -> Self {
+        Self(Encoded::Map(map))
+    }
+
+    /// The map; `None` where there are terms.
+    #[must_use]
+    pub const fn map(&self) -> Option<Map<'a>> {
+        match self.0 {
+            Encoded::Map(map) => Some(map),
+            Encoded::Exact(_) | Encoded::Compact { .. } => None,
+        }
+    }
+
     /// Of all x, all y, all z, all weights. `None` when the length is not a multiple of four.
     #[must_use]
     pub fn from_words(words: &'a [Word]) -> Option<Self> {
@@ -115,12 +132,13 @@ impl<'a> Terms<'a> {
         rest.is_empty().then_some(Self::from_quads(quads))
     }
 
-    /// How many terms there are.
+    /// How many terms there are; of a map, nodes.
     #[must_use]
     pub fn len(&self) -> usize {
         match self.0 {
             Encoded::Exact(quads) => quads.len(),
             Encoded::Compact { bytes, .. } => bytes.len(),
+            Encoded::Map(map) => map.len(),
         }
     }
 
@@ -134,16 +152,16 @@ impl<'a> Terms<'a> {
     #[must_use]
     pub fn compact_scale(&self) -> Option<f32> {
         match self.0 {
-            Encoded::Exact(_) => None,
+            Encoded::Exact(_) | Encoded::Map(_) => None,
             Encoded::Compact { scale, .. } => Some(scale),
         }
     }
 
     /// The terms one by one: direction, in the metric's coordinates, and weight. Of compact terms,
-    /// the grid's coordinates divided by [`GRID`], and the weight times its scale.
+    /// the grid's coordinates divided by [`GRID`], and the weight times its scale. Of a map, none.
     pub fn iter(&self) -> impl Iterator<Item = ([f32; 3], f32)> + use<'a> {
         let (bytes, scale) = match self.0 {
-            Encoded::Exact(_) => (&[][..], 1.0),
+            Encoded::Exact(_) | Encoded::Map(_) => (&[][..], 1.0),
             Encoded::Compact { scale, bytes } => (bytes, scale),
         };
         let compact = compact(bytes).into_iter().flat_map(Arrays::iter);
@@ -154,12 +172,12 @@ impl<'a> Terms<'a> {
         )
     }
 
-    /// The exact terms: of compact ones, none. Loading looks at these and at the directions of the
+    /// The exact terms: of compact ones and of a map, none. Loading looks at these and at the directions of the
     /// others, so that a controller links no loop over both.
     pub(crate) fn exact(&self) -> impl Iterator<Item = ([f32; 3], f32)> + use<'a> {
         let quads = match self.0 {
             Encoded::Exact(quads) => quads,
-            Encoded::Compact { .. } => &[],
+            Encoded::Compact { .. } | Encoded::Map(_) => &[],
         };
         exact(quads).into_iter().flat_map(Arrays::iter)
     }
@@ -167,7 +185,7 @@ impl<'a> Terms<'a> {
     /// The directions of compact terms, in grid steps.
     pub(crate) fn grid_directions(&self) -> impl Iterator<Item = [i8; 3]> + use<'a> {
         let bytes = match self.0 {
-            Encoded::Exact(_) => &[][..],
+            Encoded::Exact(_) | Encoded::Map(_) => &[][..],
             Encoded::Compact { bytes, .. } => bytes,
         };
         compact(bytes).into_iter().flat_map(|arrays| {

@@ -22,6 +22,7 @@ use crate::gp;
 use crate::math::{self, Real, SQRT_TWO_PI};
 use crate::template::{Stored, Template, Validity, Window};
 use crate::tolerance;
+use crate::validity::Square;
 use heapless::Vec;
 use nalgebra::Point3;
 use reach::Reach;
@@ -315,8 +316,9 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
                 }
                 let component = self.template.stored_at(index)?;
                 let offset = component.offset(at);
-                if let Some(validity) = &validity
-                    && !validity.contains_direction(offset)
+                let square = validity.map(|validity| validity.square(offset));
+                if let Some((validity, square)) = validity.zip(square)
+                    && !validity.contains_at(square)
                 {
                     continue;
                 }
@@ -330,7 +332,7 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
                         continue;
                     }
                 }
-                let prediction = self.predict(component, prepared, offset, validity);
+                let prediction = self.predict(component, prepared, offset, square, validity);
                 if let Some(blend) = &mut blend
                     && (prediction.is_some() || validity.is_none())
                 {
@@ -398,10 +400,11 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
         component: Stored<'t>,
         prepared: &Prepared,
         offset: [f32; 3],
+        square: Option<Square>,
         validity: Option<Validity<'t>>,
     ) -> Option<Prediction> {
         let (direction, distance) = gp::direction_and_length(offset, self.smallest_distance)?;
-        let predicted = component.posterior_mean(self.template.model(), &direction);
+        let predicted = component.posterior_mean(self.template.model(), &direction, square);
         if !predicted.is_finite() {
             return None;
         }

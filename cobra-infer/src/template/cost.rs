@@ -1,10 +1,11 @@
 //! What a template costs to ask, from its records alone.
 
 use super::Template;
+use crate::gp::map;
 use crate::mixture::Assignment;
 
 /// What scoring one point costs at most, in kernel evaluations: terms of which the posterior mean
-/// is summed.
+/// is summed. Of maps, in nodes that are read: [`map::READS`] a component that is asked.
 ///
 /// Each bound is reached by some point, and exceeded by none: not by one that is NaN, infinite, on
 /// a reference point or far away. With validity it need not be reached: components are silent in
@@ -15,7 +16,8 @@ pub struct Cost {
     /// With nearest assignment: the terms of the largest component.
     pub nearest: usize,
     /// With maximum assignment, which asks every component that the point has a direction from, and
-    /// with soft assignment, which leaves out those of no weight: the terms of all components.
+    /// with soft assignment, which leaves out those of no weight: the terms of all components, or the
+    /// nodes that one map reads times their number.
     pub maximum: usize,
 }
 
@@ -35,6 +37,12 @@ impl Template<'_> {
     /// worst-case times can be made before any point is seen.
     #[must_use]
     pub fn cost(&self) -> Cost {
+        if self.has_maps() {
+            return Cost {
+                nearest: map::READS,
+                maximum: map::READS.saturating_mul(self.component_count()),
+            };
+        }
         Cost {
             nearest: self
                 .components()

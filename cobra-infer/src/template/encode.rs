@@ -15,6 +15,7 @@ use super::wire::{
 };
 use crate::gp::Word;
 use crate::gp::compact::TERM_LENGTH;
+use crate::gp::map;
 use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
 
@@ -50,6 +51,7 @@ fn run_length(terms: &TermsSource<'_>) -> usize {
         TermsSource::Compact { .. } => count
             .saturating_mul(TERM_LENGTH)
             .saturating_add(size_of::<Word>()),
+        TermsSource::Map { nodes, .. } => nodes.len().saturating_add(map::HEADER_LENGTH),
     }
 }
 
@@ -91,11 +93,9 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
         &mut used,
         Section::Terms,
         &TermsSection {
-            encoding: if first.is_some_and(|component| component.terms.is_compact()) {
-                TermEncoding::Compact
-            } else {
-                TermEncoding::Float32
-            },
+            encoding: first.map_or(TermEncoding::Float32, |component| {
+                component.terms.encoding()
+            }),
             values: Values(source),
         },
     )?;
@@ -201,7 +201,9 @@ impl Serialize for Records<'_> {
             let (_, count) = component.terms.lengths();
             let taken = match component.terms {
                 TermsSource::Exact { .. } => count,
-                TermsSource::Compact { .. } => run_length(&component.terms),
+                TermsSource::Compact { .. } | TermsSource::Map { .. } => {
+                    run_length(&component.terms)
+                }
             };
             let narrow = |number| u32::try_from(number).unwrap_or(u32::MAX);
             let first = next;
@@ -273,6 +275,21 @@ impl Serialize for Values<'_> {
                     let weights = weights.iter().flat_map(|weight| weight.to_le_bytes());
                     let scale = scale.to_le_bytes().into_iter();
                     for byte in scale.chain(xs).chain(ys).chain(zs).chain(weights) {
+                        sequence.serialize_element(&byte)?;
+                    }
+                }
+                TermsSource::Map {
+                    pole,
+                    size: [columns, rows],
+                    spacing,
+                    origin: [x, y],
+                    scale,
+                    nodes,
+                } => {
+                    let numbers = [scale, spacing, x, y].map(f32::to_le_bytes);
+                    let numbers = numbers.into_iter().flatten();
+                    let header = numbers.chain([columns, rows, pole as u8, 0]);
+                    for byte in header.chain(nodes.iter().map(|node| *node as u8)) {
                         sequence.serialize_element(&byte)?;
                     }
                 }

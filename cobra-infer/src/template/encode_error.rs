@@ -16,7 +16,7 @@ pub enum EncodeError {
     },
     /// Some components have a precision and some have none.
     Precisions,
-    /// Some components have compact terms and some exact ones.
+    /// Components have terms of different encodings.
     TermEncodings,
     /// Some components have a validity and some have none.
     Validities,
@@ -32,13 +32,13 @@ pub enum EncodeError {
     },
     /// The quality has not one share for each component, or a number that is no share or no deviation.
     Quality,
-    /// A component has not as many directions as weights.
+    /// A component has not as many directions as weights, or not the nodes that its map needs.
     TermCount {
         /// Which component.
         component: usize,
-        /// How many directions.
+        /// How many directions; of a map, columns times rows.
         directions: usize,
-        /// How many weights.
+        /// How many weights; of a map, nodes.
         weights: usize,
     },
     /// More than a file of this format can hold.
@@ -63,7 +63,7 @@ impl fmt::Display for EncodeError {
                 f.write_str("either all components have a precision or none has")
             }
             EncodeError::TermEncodings => {
-                f.write_str("either all components have compact terms or none has")
+                f.write_str("all components must have terms of the same encoding")
             }
             EncodeError::Validities => {
                 f.write_str("either all components have a validity or none has")

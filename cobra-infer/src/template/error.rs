@@ -224,6 +224,22 @@ pub enum TemplateError {
     },
     /// Compact terms, and the metric of angles, which has none.
     CompactAngles,
+    /// Maps, and no validity to say where they hold.
+    MapValidity,
+    /// A component's map has not four columns and four rows, not as many nodes as they make, another
+    /// pole than its validity, or a byte that is not 0 where 0 must be.
+    MapGrid {
+        /// Which component.
+        component: usize,
+        /// Nodes in a row.
+        columns: u8,
+        /// Rows.
+        rows: u8,
+        /// The pole's number.
+        pole: u8,
+        /// How many nodes there are.
+        found: usize,
+    },
     /// There are not as many validities as components.
     ValidityCount {
         /// How many components.
@@ -416,6 +432,18 @@ impl fmt::Display for TemplateError {
                  diagonal"
             ),
             E::CompactAngles => f.write_str("compact terms have no metric of angles"),
+            E::MapValidity => f.write_str("maps need a validity section"),
+            E::MapGrid {
+                component,
+                columns,
+                rows,
+                pole,
+                found,
+            } => write!(
+                f,
+                "component {component}: a map needs 4 columns and rows or more and its validity's pole, \
+                 found {found} nodes in {columns} columns and {rows} rows around pole {pole}"
+            ),
             E::ValidityCount { expected, found } => {
                 write!(f, "{found} validities for {expected} components")
             }

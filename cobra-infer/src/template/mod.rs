@@ -178,6 +178,12 @@ impl<'a> Template<'a> {
         matches!(self.values, TermValues::Compact(_))
     }
 
+    /// Whether the components have maps in the place of terms ([`crate::gp::map`]).
+    #[must_use]
+    pub fn has_maps(&self) -> bool {
+        matches!(self.values, TermValues::Map(_))
+    }
+
     /// What was measured of the template, where it says so and what it says decodes.
     #[must_use]
     pub fn quality(&self) -> Option<Quality<'a>> {
@@ -190,12 +196,14 @@ impl<'a> Template<'a> {
         self.records.len()
     }
 
-    /// How many terms all components have together.
+    /// How many terms all components have together; of maps, nodes.
     #[must_use]
     pub fn term_count(&self) -> usize {
         match self.values {
             TermValues::Exact(quads) => quads.len(),
-            TermValues::Compact(_) => self.stored().map(|stored| stored.terms().len()).sum(),
+            TermValues::Compact(_) | TermValues::Map(_) => {
+                self.stored().map(|stored| stored.terms().len()).sum()
+            }
         }
     }
 

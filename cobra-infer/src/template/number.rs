@@ -37,6 +37,12 @@ pub enum Number {
     PriorMean,
     /// The scale of compact weights.
     WeightScale,
+    /// The scale of a map's nodes.
+    MapScale,
+    /// Nodes of a map in a unit of the square.
+    MapSpacing,
+    /// A coordinate of a map's origin.
+    MapOrigin,
 }
 
 impl Number {
@@ -58,6 +64,9 @@ impl Number {
             Self::NoParameter => "the parameter",
             Self::PriorMean => "the prior mean",
             Self::WeightScale => "the scale of the weights",
+            Self::MapScale => "the scale of the map",
+            Self::MapSpacing => "the spacing of the map",
+            Self::MapOrigin => "the origin of the map",
         }
     }
 

@@ -4,7 +4,7 @@
 
 use super::Precision;
 use super::encode_error::EncodeError;
-use super::wire::NAME_CAPACITY;
+use super::wire::{NAME_CAPACITY, TermEncoding};
 use crate::gp::{Hyperparameters, UnitDirection};
 use crate::kernel::Model;
 use crate::unit::Unit;
@@ -68,10 +68,26 @@ pub enum TermsSource<'a> {
         /// What the weights are multiplied by; positive, finite and no subnormal.
         scale: f32,
     },
+    /// A map ([`crate::gp::map`]), which needs a validity of the same pole.
+    Map {
+        /// Which half axis points at the middle of the square.
+        pole: Pole,
+        /// Nodes in a row, and rows; at least four each.
+        size: [u8; 2],
+        /// Nodes in a unit of the square; positive, finite and no subnormal.
+        spacing: f32,
+        /// The place of the middle of the square, in nodes.
+        origin: [f32; 2],
+        /// What the sum over the nodes is multiplied by; positive, finite and no subnormal.
+        scale: f32,
+        /// Row by row.
+        nodes: &'a [i8],
+    },
 }
 
 impl TermsSource<'_> {
-    /// How many directions and how many weights there are.
+    /// How many directions and how many weights there are; of a map, how many nodes there must be and
+    /// how many there are.
     pub(super) const fn lengths(&self) -> (usize, usize) {
         match self {
             Self::Exact {
@@ -83,12 +99,21 @@ impl TermsSource<'_> {
                 weights,
                 ..
             } => (directions.len(), weights.len()),
+            Self::Map {
+                size: [columns, rows],
+                nodes,
+                ..
+            } => (*columns as usize * *rows as usize, nodes.len()),
         }
     }
 
-    /// Whether they are compact.
-    pub(super) const fn is_compact(&self) -> bool {
-        matches!(self, Self::Compact { .. })
+    /// How they are written.
+    pub(super) const fn encoding(&self) -> TermEncoding {
+        match self {
+            Self::Exact { .. } => TermEncoding::Float32,
+            Self::Compact { .. } => TermEncoding::Compact,
+            Self::Map { .. } => TermEncoding::Map,
+        }
     }
 }
 
@@ -158,7 +183,9 @@ pub(super) fn check(source: &TemplateSource<'_>) -> Result<(), EncodeError> {
     if some(|c| c.precision.is_some()) {
         return Err(EncodeError::Precisions);
     }
-    if some(|c| c.terms.is_compact()) {
+    let mut encodings = source.components.iter().map(|c| c.terms.encoding());
+    let first = encodings.next();
+    if encodings.any(|encoding| Some(encoding) != first) {
         return Err(EncodeError::TermEncodings);
     }
     if some(|c| c.validity.is_some()) {

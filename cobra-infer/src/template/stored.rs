@@ -7,6 +7,7 @@ use super::wire::{self, Record, TermValues};
 use super::{Component, Precision, Template, Validity};
 use crate::gp::{self, Hyperparameters, Terms, UnitDirection};
 use crate::kernel::Model;
+use crate::validity::Square;
 
 /// A record, and the terms that it names a range of.
 #[derive(Clone, Copy, Debug)]
@@ -75,10 +76,16 @@ impl<'a> Stored<'a> {
         }
     }
 
-    /// [`Component::posterior_mean`].
+    /// [`Component::posterior_mean`] in the direction that lies at `square` on the component's map of
+    /// directions, which there is where it has validity.
     #[inline]
-    pub(crate) fn posterior_mean(&self, model: Model, u: &UnitDirection) -> f32 {
-        gp::posterior_mean(model, &self.hyperparameters(), &self.terms(), u)
+    pub(crate) fn posterior_mean(
+        &self,
+        model: Model,
+        u: &UnitDirection,
+        square: Option<Square>,
+    ) -> f32 {
+        gp::posterior_mean_at(model, &self.hyperparameters(), &self.terms(), u, square)
     }
 
     /// All of it, with the precision and the validity that belong to it.

@@ -7,8 +7,9 @@ use super::wire::{
     self, HEADER_LENGTH, Header, NAME_CAPACITY, ObjectSection, REQUIRED, RecordsSection,
     SECTION_HEADER_LENGTH, SectionHeader, TermEncoding, TermValues, TermsSection, ValiditySection,
 };
-use super::{Precision, Stored, Template, Validities};
+use super::{Precision, Stored, Template, Validities, Validity};
 use crate::gp::compact::{self, GRID};
+use crate::gp::map::Map;
 use crate::gp::{Hyperparameters, Word};
 use crate::kernel::{Kernel, Metric, Model};
 use crate::math;
@@ -51,7 +52,10 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
         Some(body) => Some(decode(Section::Validity, body)?),
         None => None,
     };
-    check_model(model)?;
+    // A map is not evaluated with it.
+    if !matches!(terms.encoding, TermEncoding::Map) {
+        check_model(model)?;
+    }
 
     let components = records(Section::Components, components.stride, components.records)?;
     if components.is_empty() {
@@ -72,7 +76,7 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
             }
             None => None,
         },
-        values: values(&terms, model.metric)?,
+        values: values(&terms, model.metric, validities.is_some())?,
         validities: match &validities {
             Some(section) => Some(Validities {
                 records: records(Section::Validity, section.stride, section.records)?,
@@ -206,8 +210,11 @@ fn records<const WORDS: usize>(
 fn values<'a>(
     section: &TermsSection<&'a [u8]>,
     metric: Metric,
+    validity: bool,
 ) -> Result<TermValues<'a>, TemplateError> {
     match (section.encoding, metric) {
+        (TermEncoding::Map, _) if !validity => return Err(TemplateError::MapValidity),
+        (TermEncoding::Map, _) => return Ok(TermValues::Map(section.values)),
         (TermEncoding::Compact, Metric::Angles) => return Err(TemplateError::CompactAngles),
         (TermEncoding::Compact, Metric::Chord) => return Ok(TermValues::Compact(section.values)),
         (TermEncoding::Float32, _) => {}
@@ -295,6 +302,10 @@ fn check_components(template: &Template<'_>) -> Result<(), TemplateError> {
                 found,
             });
         }
+        if let Some(map) = terms.map() {
+            let validity = template.validities.and_then(|all| all.get(component));
+            check_map(component, &map, validity)?;
+        }
         for (term, direction) in terms.grid_directions().enumerate() {
             if !compact::is_unit(direction) {
                 return Err(TemplateError::Direction {
@@ -306,6 +317,46 @@ fn check_components(template: &Template<'_>) -> Result<(), TemplateError> {
         }
     }
     Ok(())
+}
+
+fn check_map(
+    component: usize,
+    map: &Map<'_>,
+    validity: Option<Validity<'_>>,
+) -> Result<(), TemplateError> {
+    let [x, y] = map.origin();
+    for (number, expected, found) in [
+        (Number::MapScale, Range::Normal, map.scale()),
+        (Number::MapSpacing, Range::Normal, map.spacing()),
+        (Number::MapOrigin, Range::Finite, x),
+        (Number::MapOrigin, Range::Finite, y),
+    ] {
+        let holds = match expected {
+            Range::Finite => found.is_finite(),
+            _ => normal(found),
+        };
+        if !holds {
+            return Err(TemplateError::ComponentNumber {
+                component,
+                number,
+                expected,
+                found,
+            });
+        }
+    }
+    let pole = map.pole_number();
+    // That it is a pole's number, validity is asked.
+    let same_pole = validity.is_some_and(|validity| validity.pole_number() == pole);
+    if map.is_whole() && same_pole {
+        return Ok(());
+    }
+    Err(TemplateError::MapGrid {
+        component,
+        columns: map.columns(),
+        rows: map.rows(),
+        pole,
+        found: map.nodes().len(),
+    })
 }
 
 fn check_record(kernel: Kernel, component: usize, stored: Stored<'_>) -> Result<(), TemplateError> {

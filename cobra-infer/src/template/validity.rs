@@ -5,7 +5,7 @@
 //! block's two bits, and of a block that is valid in part its cells.
 
 use super::wire::{BLOCK_SIDE, LEAF_LENGTH, ROW_LENGTH, ValidityRecord};
-use crate::validity::{BOX_STEPS, Cell, Pole, cell};
+use crate::validity::{BOX_STEPS, Cell, Pole, Square, cell_at, square};
 
 /// The validities of all components.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,11 +138,22 @@ impl<'a> Validity<'a> {
 
     /// Whether the component may speak in the direction of this offset from its reference point,
     /// which need not be of any length.
-    // Out of line: scoring asks it in three places.
     #[must_use]
-    #[inline(never)]
     pub fn contains_direction(&self, offset: [f32; 3]) -> bool {
-        self.contains(cell(self.pole(), self.side(), offset))
+        self.contains_at(self.square(offset))
+    }
+
+    /// Where the direction of this offset from the reference point lies on the map of directions.
+    #[inline]
+    pub(crate) fn square(&self, offset: [f32; 3]) -> Square {
+        square(self.pole(), offset)
+    }
+
+    /// As [`Validity::contains_direction`], of a place on the map.
+    // Out of line: scoring asks it in three places.
+    #[inline(never)]
+    pub(crate) fn contains_at(&self, at: Square) -> bool {
+        self.contains(cell_at(self.side(), at))
     }
 
     /// Whether a cell is valid.

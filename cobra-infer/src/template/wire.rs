@@ -2,6 +2,7 @@
 
 use super::error::{Section, TemplateError};
 use crate::gp::compact::TERM_LENGTH;
+use crate::gp::map::{self, Map};
 use crate::gp::{Terms, Word};
 use crate::unit::Unit;
 use crate::validity::LARGEST_SIDE;
@@ -234,13 +235,15 @@ pub(super) struct RecordsSection<B> {
 }
 
 /// How directions and weights are stored.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum TermEncoding {
     /// All x, all y, all z, all weights of a component, each a run of little-endian `f32`.
     Float32,
     /// Of each component the scale of its weights, all x, all y, all z in grid steps, all weights in
     /// units of the scale: `f32`, `i8`, little-endian `i16`.
     Compact,
+    /// Of each component a map in their place: [`map::Header`], then its nodes, `i8`.
+    Map,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -281,6 +284,7 @@ pub(super) type Quad = [Word; 4];
 pub(super) enum TermValues<'a> {
     Exact(&'a [Quad]),
     Compact(&'a [u8]),
+    Map(&'a [u8]),
 }
 
 impl<'a> TermValues<'a> {
@@ -299,6 +303,13 @@ impl<'a> TermValues<'a> {
                     terms.get(..count)?,
                 ))
             }
+            Self::Map(bytes) => {
+                let (header, nodes) = bytes
+                    .get(first..)?
+                    .split_first_chunk::<{ map::HEADER_LENGTH }>()?;
+                let header = header.as_chunks().0.first_chunk()?;
+                Some(Terms::from_map(Map::new(header, nodes.get(..count)?)))
+            }
         }
     }
 
@@ -310,6 +321,7 @@ impl<'a> TermValues<'a> {
             Self::Compact(_) => count
                 .saturating_mul(TERM_LENGTH as u32)
                 .saturating_add(size_of::<Word>() as u32),
+            Self::Map(_) => count.saturating_add(map::HEADER_LENGTH as u32),
         })
     }
 
@@ -317,7 +329,7 @@ impl<'a> TermValues<'a> {
     pub(super) fn end(self) -> usize {
         match self {
             Self::Exact(quads) => quads.len(),
-            Self::Compact(bytes) => bytes.len(),
+            Self::Compact(bytes) | Self::Map(bytes) => bytes.len(),
         }
     }
 }
