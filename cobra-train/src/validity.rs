@@ -60,14 +60,20 @@ impl ValidCells {
         self.cells.iter().filter(|valid| **valid).count()
     }
 
-    /// The unit vectors at `at`, 0 to 1 along column and row, of all valid cells.
-    pub fn directions(&self, at: [f32; 2]) -> impl Iterator<Item = UnitVector3<f64>> {
+    /// The valid cells, row by row.
+    pub fn valid(&self) -> impl Iterator<Item = Cell> {
         let side = self.side;
         (0..side)
             .flat_map(move |row| (0..side).map(move |column| Cell { column, row }))
             .zip(&self.cells)
             .filter(|(_, valid)| **valid)
-            .map(move |(cell, _)| unit(self.pole, side, cell, at))
+            .map(|(cell, _)| cell)
+    }
+
+    /// The unit vectors at `at`, 0 to 1 along column and row, of all valid cells.
+    pub fn directions(&self, at: [f32; 2]) -> impl Iterator<Item = UnitVector3<f64>> {
+        self.valid()
+            .map(move |cell| unit(self.pole, self.side, cell, at))
     }
 }
 

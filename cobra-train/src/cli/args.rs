@@ -2,8 +2,9 @@
 
 use super::choices::{
     AssignmentArgument, BudgetArgument, ExponentArgument, ExportFormat, KernelArgument,
-    LikelihoodArgument, MetricArgument, SamplingArgument, ThresholdArgument, UnitArgument,
-    ValidityArgument, WeightsArgument, budget, identifier, not_negative, overlap, positive,
+    LikelihoodArgument, MeanArgument, MetricArgument, SamplingArgument, ThresholdArgument,
+    UnitArgument, ValidityArgument, WeightsArgument, budget, identifier, not_negative, overlap,
+    positive,
 };
 use super::learning::{OptimiserArgument, PriorMeanArgument, SubsetArgument, subset};
 use clap::{Args, Parser, Subcommand};
@@ -119,8 +120,14 @@ pub(crate) struct TrainArguments {
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) max_components: Option<u32>,
 
-    /// Most bytes that the template may have: its terms are compressed into them. none: the exact
-    /// Gaussian process [default: 14336; none with --metric angles]
+    /// What the template says the mean by: the Gaussian process's terms, or a map over the directions
+    /// that is baked from it
+    #[arg(long, value_enum, default_value_t = MeanArgument::Gp)]
+    pub(crate) mean: MeanArgument,
+
+    /// Most bytes that the template may have: its terms are compressed into them, or its maps are as
+    /// fine as they allow. none: the exact Gaussian process, or the finest maps [default: 14336; none
+    /// with --metric angles; 24576 with --mean map]
     #[arg(long, value_name = "BYTES|none", value_parser = budget)]
     pub(crate) budget: Option<BudgetArgument>,
 

@@ -7,7 +7,7 @@ use cobra_infer::{
 };
 use cobra_train::export::Identifier;
 use cobra_train::input::Weighting;
-use cobra_train::train::{Overlap, SurfaceSampling, Validity};
+use cobra_train::train::{MeanForm, Overlap, SurfaceSampling, Validity};
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum UnitArgument {
@@ -103,6 +103,23 @@ impl From<ValidityArgument> for Validity {
         match validity {
             ValidityArgument::Verified => Validity::Verified,
             ValidityArgument::Everywhere => Validity::Everywhere,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum MeanArgument {
+    /// The Gaussian process's terms
+    Gp,
+    /// A map over the directions: the same cost for every point
+    Map,
+}
+
+impl From<MeanArgument> for MeanForm {
+    fn from(mean: MeanArgument) -> Self {
+        match mean {
+            MeanArgument::Gp => MeanForm::Process,
+            MeanArgument::Map => MeanForm::Map,
         }
     }
 }

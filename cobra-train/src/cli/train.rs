@@ -20,7 +20,8 @@ use cobra_train::progress::Progress;
 use cobra_train::reference::read_reference_points;
 use cobra_train::surface::{BoundingSphere, Geometry};
 use cobra_train::train::{
-    BUDGET, MOST_CHARTS, Overlap, ReferencePoints, TrainOptions, Trained, Validity, train,
+    BUDGET, MAP_BUDGET, MOST_CHARTS, MeanForm, Overlap, ReferencePoints, TrainOptions, Trained,
+    Validity, train,
 };
 use serde::Serialize;
 use std::path::Path;
@@ -129,6 +130,13 @@ fn options(arguments: &TrainArguments) -> Result<TrainOptions, Failure> {
     options.overlap = arguments.overlap;
     options.validity = arguments.validity.into();
     options.fit.model = model(arguments)?;
+    options.mean = arguments.mean.into();
+    if options.mean == MeanForm::Map && options.validity != Validity::Verified {
+        return Err(Failure::Usage(
+            "--mean map goes with --validity verified alone: a map holds where it was verified"
+                .to_owned(),
+        ));
+    }
     options.budget = budget(arguments)?;
     learning::choose(arguments, &mut options.fit);
     options.seed = arguments.seed;
@@ -149,6 +157,13 @@ fn model(arguments: &TrainArguments) -> Result<Model, Failure> {
 }
 
 fn budget(arguments: &TrainArguments) -> Result<Option<usize>, Failure> {
+    if MeanForm::from(arguments.mean) == MeanForm::Map {
+        return Ok(match arguments.budget {
+            Some(BudgetArgument::Bytes(bytes)) => Some(bytes),
+            Some(BudgetArgument::None) => None,
+            None => Some(MAP_BUDGET),
+        });
+    }
     let angles = Metric::from(arguments.metric) == Metric::Angles;
     match arguments.budget {
         Some(BudgetArgument::Bytes(_)) if angles => Err(Failure::Usage(

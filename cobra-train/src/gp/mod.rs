@@ -4,6 +4,8 @@
 //! itself and the posterior mean of a template belong to `cobra-infer`, so that host and controller
 //! compute the same thing.
 
+mod bake;
+mod banded;
 mod cholesky;
 mod compress;
 mod fit;
@@ -12,6 +14,7 @@ mod likelihood;
 mod optimise;
 mod posterior;
 
+pub use bake::{Baked, Sample, bake};
 pub use cholesky::{Cholesky, NotPositiveDefinite};
 pub use compress::{Compressed, Uncompressed, compress};
 pub use fit::{

@@ -1,7 +1,7 @@
 //! From fitted components to the bytes of a template: the change of scale and of precision.
 
 use super::TrainOptions;
-use crate::gp::{Compressed, FittedGp};
+use crate::gp::{Baked, Compressed, FittedGp};
 use crate::reference::Cluster;
 use crate::surface::BoundingSphere;
 use crate::validity::ValidCells;
@@ -11,6 +11,7 @@ use cobra_infer::template::{
     ComponentSource, Precision, QualitySource, TemplateSource, TermsSource, ValiditySource, encode,
     encoded_len,
 };
+use cobra_infer::validity::Pole;
 use cobra_infer::{EncodeError, Kernel};
 use nalgebra::{Cholesky, Matrix3};
 
@@ -33,6 +34,12 @@ enum ScaledTerms {
     Compact {
         directions: Vec<[i8; 3]>,
         weights: Vec<i16>,
+        scale: f32,
+    },
+    Map {
+        pole: Pole,
+        map: Baked,
+        /// In the mesh's unit.
         scale: f32,
     },
 }
@@ -121,6 +128,27 @@ impl ScaledComponent {
         }
     }
 
+    /// The same component with a map, which was fitted where it is valid.
+    pub(super) fn baked(&self, map: &Baked, sphere: &BoundingSphere) -> Self {
+        Self {
+            hyperparameters: Hyperparameters {
+                prior_mean: (sphere.radius * map.prior_mean) as f32,
+                ..self.hyperparameters
+            },
+            terms: ScaledTerms::Map {
+                pole: self.cells().map_or(Pole::PlusZ, |cells| cells.pole),
+                map: map.clone(),
+                scale: (sphere.radius * map.scale) as f32,
+            },
+            ..self.clone()
+        }
+    }
+
+    /// The directions in which it may speak.
+    pub(super) fn cells(&self) -> Option<&ValidCells> {
+        self.validity.as_ref().map(|validity| &validity.cells)
+    }
+
     pub(super) fn with_validity(self, validity: ScaledValidity) -> Self {
         Self {
             validity: Some(validity),
@@ -132,6 +160,7 @@ impl ScaledComponent {
         match &self.terms {
             ScaledTerms::Exact { weights, .. } => weights.len(),
             ScaledTerms::Compact { weights, .. } => weights.len(),
+            ScaledTerms::Map { map, .. } => map.nodes.len(),
         }
     }
 
@@ -157,6 +186,14 @@ impl ScaledComponent {
                     directions,
                     weights,
                     scale: *scale,
+                },
+                ScaledTerms::Map { pole, map, scale } => TermsSource::Map {
+                    pole: *pole,
+                    size: map.size,
+                    spacing: map.spacing as f32,
+                    origin: map.origin.map(|place| place as f32),
+                    scale: *scale,
+                    nodes: &map.nodes,
                 },
             },
             validity: self.validity.as_ref().map(|validity| ValiditySource {

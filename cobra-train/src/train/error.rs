@@ -62,6 +62,9 @@ pub enum TrainError {
     /// Compression is of directions on the chord.
     #[error("templates with the metric of angles cannot be compressed: use no budget")]
     BudgetNeedsChord,
+    /// Maps hold in verified directions alone.
+    #[error("maps hold where components are verified alone: they cannot speak everywhere")]
+    MapNeedsValidity,
     /// The components do not fit; of charts, not even one.
     #[error(
         "{budget} bytes are too few for a template of this object: about {least} are needed at least"

@@ -4,6 +4,7 @@
 //! as the paper does, and written in the mesh's unit, so that the controller never scales anything.
 
 mod assemble;
+mod bake;
 mod draw;
 mod error;
 mod fit;
@@ -18,7 +19,7 @@ mod verify;
 pub use draw::SurfaceSampling;
 pub use error::TrainError;
 pub use membership::Overlap;
-pub use options::{BUDGET, MOST_CHARTS, TrainOptions, Validity};
+pub use options::{BUDGET, MAP_BUDGET, MOST_CHARTS, MeanForm, TrainOptions, Validity};
 pub use place::{PLACEMENTS, ReferencePoints};
 pub use uncovered::UncoveredRegion;
 
@@ -76,7 +77,8 @@ pub struct TrainedComponent {
 }
 
 /// How far the mean of a template is from that of the exact Gaussian process, in units of σ̂ of the
-/// component that speaks, over the test points that it explains.
+/// component that speaks, over the test points that it explains; of maps, the largest over all directions
+/// in which components are valid too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
     /// The largest.
@@ -147,9 +149,14 @@ pub fn train(
     let provisional = frame.provisional(&scaled)?;
     let template = Template::from_bytes(&provisional)?;
     let measured = measure::measure(&template, &test)?;
-    let deviation = match options.budget {
-        Some(_) => Some(deviation(&frame, &parts, &measured, &test)?),
-        None => None,
+    let deviation = match (options.mean, options.budget) {
+        (MeanForm::Process, None) => None,
+        (MeanForm::Process, Some(_)) => Some(deviation(&frame, &parts, &measured, &test)?),
+        (MeanForm::Map, _) => {
+            let on_points = deviation(&frame, &parts, &measured, &test)?;
+            let sigma_hats = &measured.sigma_hats;
+            Some(bake::bounded(on_points, &template, &parts, sigma_hats))
+        }
     };
     let unexplained: Vec<f32> = measured
         .unexplained
@@ -220,6 +227,13 @@ fn finished_parts(
     } else {
         exact
     };
+    if frame.options.mean == MeanForm::Map {
+        if !verified {
+            return Err(TrainError::MapNeedsValidity);
+        }
+        let budget = frame.options.budget.unwrap_or(usize::MAX);
+        return bake::bake_parts(frame, exact, training, budget);
+    }
     match frame.options.budget {
         Some(budget) => squeeze::squeeze(frame, exact, training, verified, budget),
         None => Ok(exact),

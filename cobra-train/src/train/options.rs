@@ -23,8 +23,10 @@ pub struct TrainOptions {
     pub overlap: Overlap,
     /// Whether components speak only where they are verified.
     pub validity: Validity,
+    /// What the template says the mean by.
+    pub mean: MeanForm,
     /// The most bytes that the template may have, which its terms are compressed into; `None` for the
-    /// exact Gaussian process. Of the metric of the chord alone.
+    /// exact Gaussian process. Of the metric of the chord alone. Of maps, `None` for the finest.
     pub budget: Option<usize>,
     /// Metric and covariance function, and how they are fitted.
     pub fit: FitOptions,
@@ -42,11 +44,25 @@ pub enum Validity {
     Everywhere,
 }
 
+/// What a template says the posterior mean by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MeanForm {
+    /// The terms of the Gaussian process: the reference.
+    #[default]
+    Process,
+    /// A map over the directions, which costs a point the same however many terms there were. For
+    /// [`Validity::Verified`] alone.
+    Map,
+}
+
 /// The most charts unless somebody says otherwise.
 pub const MOST_CHARTS: usize = 64;
 
 /// The bytes that a template is compressed into unless somebody says otherwise: 14 KB.
 pub const BUDGET: usize = 14_336;
+
+/// As [`BUDGET`], of maps: 24 KB.
+pub const MAP_BUDGET: usize = 24_576;
 
 impl TrainOptions {
     /// This project's choices: reference points that place themselves, the rational quadratic with
@@ -76,6 +92,7 @@ impl TrainOptions {
             reference_points: ReferencePoints::KMeans { components },
             overlap: Overlap::default(),
             validity: Validity::Everywhere,
+            mean: MeanForm::Process,
             budget: None,
             fit: FitOptions::new(Kernel::RationalQuadratic(Exponent::One)),
             seed: 0,

@@ -142,7 +142,7 @@ fn fixed_bytes(frame: &Frame<'_>, parts: &[Part]) -> Result<usize, TrainError> {
 }
 
 /// Of the quality section: its header, three numbers, and two bytes a component.
-fn quality_bytes(components: usize) -> usize {
+pub(super) fn quality_bytes(components: usize) -> usize {
     8 + 3 * 4 + 3 + 2 * components
 }
 
