@@ -21,6 +21,8 @@ pub(crate) struct Part {
     pub(crate) weights: Vec<f32>,
     /// In the place of directions and weights.
     pub(crate) compact: Option<Compact>,
+    /// In the place of either.
+    pub(crate) map: Option<Map>,
     pub(crate) validity: Option<Valid>,
 }
 
@@ -30,6 +32,17 @@ pub(crate) struct Compact {
     pub(crate) directions: Vec<[i8; 3]>,
     pub(crate) weights: Vec<i16>,
     pub(crate) scale: f32,
+}
+
+/// A map over the directions.
+#[derive(Clone, Debug)]
+pub(crate) struct Map {
+    pub(crate) pole: Pole,
+    pub(crate) size: [u8; 2],
+    pub(crate) spacing: f32,
+    pub(crate) origin: [f32; 2],
+    pub(crate) scale: f32,
+    pub(crate) nodes: Vec<i8>,
 }
 
 /// Where a component may speak.
@@ -72,12 +85,20 @@ impl Content {
                 sigma_hat: part.sigma_hat,
                 precision: part.precision,
                 hyperparameters: part.hyperparameters,
-                terms: match &part.compact {
-                    None => TermsSource::Exact {
+                terms: match (&part.compact, &part.map) {
+                    (_, Some(map)) => TermsSource::Map {
+                        pole: map.pole,
+                        size: map.size,
+                        spacing: map.spacing,
+                        origin: map.origin,
+                        scale: map.scale,
+                        nodes: &map.nodes,
+                    },
+                    (None, None) => TermsSource::Exact {
                         directions: &part.directions,
                         weights: &part.weights,
                     },
-                    Some(compact) => TermsSource::Compact {
+                    (Some(compact), None) => TermsSource::Compact {
                         directions: &compact.directions,
                         weights: &compact.weights,
                         scale: compact.scale,
@@ -136,6 +157,7 @@ impl Content {
                 .to_vec(),
             weights: [0.5, -0.25, 0.75][..count].to_vec(),
             compact: None,
+            map: None,
             validity: None,
         };
         Self {
@@ -210,6 +232,7 @@ pub(crate) fn part(kernel: Kernel, terms: usize) -> impl Strategy<Value = Part> 
                 directions,
                 weights,
                 compact: None,
+                map: None,
                 validity: None,
             },
         )

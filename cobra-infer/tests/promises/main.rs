@@ -10,6 +10,7 @@ mod decisions;
 mod geometry;
 mod hostile_input;
 mod invariance;
+mod map;
 mod mixture;
 mod posterior_mean;
 mod precisions;

@@ -38,7 +38,7 @@ pub(crate) const SPECIAL: [f32; 20] = [
 ];
 
 /// Loads and, where that succeeds, scores under every rule.
-fn load_and_use(bytes: &[u8]) -> bool {
+pub(crate) fn load_and_use(bytes: &[u8]) -> bool {
     let Ok(template) = Template::from_bytes(bytes) else {
         return false;
     };
@@ -144,7 +144,7 @@ fn every_byte_of_a_chart_at_its_extremes_with_the_right_checksum_never_panics() 
     every_byte_at_its_extremes(&charts::small());
 }
 
-fn every_byte_at_its_extremes(content: &Content) {
+pub(crate) fn every_byte_at_its_extremes(content: &Content) {
     let bytes = content.encode();
     let mut loaded = 0;
     for place in 16..bytes.len() {

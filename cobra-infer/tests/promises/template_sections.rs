@@ -223,7 +223,7 @@ fn values_that_no_version_1_writer_writes_are_malformed() {
         (MODEL, model, 0, |body, at| body[at] = 2),
         (MODEL, model, 1, |body, at| body[at] = 6),
         (MODEL, model, 2, |body, at| body[at] = 3),
-        (TERMS, terms, 0, |body, at| body[at] = 2),
+        (TERMS, terms, 0, |body, at| body[at] = 3),
     ];
     for (tag, section, at, change) in cases {
         let damaged = with_body(&bytes, tag, |body| change(body, at));
