@@ -110,8 +110,10 @@ pub fn square(pole: Pole, offset: [f32; 3]) -> Square {
 #[inline]
 pub fn cell_at(side: u8, [p, q]: Square) -> Cell {
     let half = 0.5 * f32::from(side);
-    // Rust's conversion rounds down what is not negative, and takes NaN for 0.
-    let index = |t: f32| (((t + 1.0) * half) as u8).min(side.saturating_sub(1));
+    // Rust's conversion rounds down what is not negative, and takes NaN for 0. To a whole word it is
+    // one instruction where there is a floating-point unit, to a byte it is seven.
+    let last = u32::from(side.saturating_sub(1));
+    let index = |t: f32| (((t + 1.0) * half) as u32).min(last) as u8;
     Cell {
         column: index(p),
         row: index(q),
@@ -176,7 +178,7 @@ impl BoxGrid {
     #[inline]
     pub fn position(&self, [x, y, z]: [f32; 3]) -> [u8; 3] {
         let [ox, oy, oz] = self.origin;
-        let index = |t: f32| ((t * self.inverse_step) as u8).min(BOX_STEPS - 1);
+        let index = |t: f32| ((t * self.inverse_step) as u32).min(u32::from(BOX_STEPS) - 1) as u8;
         [index(x - ox), index(y - oy), index(z - oz)]
     }
 }

@@ -144,7 +144,8 @@ impl<'a> Map<'a> {
 #[inline]
 fn place(at: f32, nodes: u8) -> (u8, [f32; 4]) {
     // Rust's conversion rounds down what is not negative, and takes NaN for 0.
-    let first = (at as u8).min(nodes.saturating_sub(SUPPORT));
+    let most = u32::from(nodes.saturating_sub(SUPPORT));
+    let first = (at as u32).min(most) as u8;
     let t = at - f32::from(first);
     let r = 1.0 - t;
     let (tt, rr) = (t * t, r * r);

@@ -14,6 +14,7 @@
 #[cfg(test)]
 mod pruning;
 mod reach;
+mod slabs;
 mod soft;
 
 use crate::bound::{self, Threshold};
@@ -26,6 +27,7 @@ use crate::validity::Square;
 use heapless::Vec;
 use nalgebra::Point3;
 use reach::Reach;
+use slabs::GROUP;
 use soft::Blend;
 
 /// Which likelihood a residual e under standard deviation σ has.
@@ -269,8 +271,10 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
             // There is room for all of them.
             let _ = self.prepared.push(prepared);
         }
-        if self.template.has_validity() && self.assignment == Assignment::Maximum {
-            self.reach.prune();
+        if let Some(validities) = self.template.validities()
+            && self.assignment == Assignment::Maximum
+        {
+            self.reach.prune(validities);
         }
     }
 
@@ -307,48 +311,56 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
                 Some(_) => self.reach.window(at, reach),
                 None => asked,
             };
-            for index in candidates.clone() {
-                let validity = validities.and_then(|all| all.get(index));
-                if let Some(validity) = &validity
-                    && (!validity.meets(window) || validity.meets(asked))
-                {
-                    continue;
+            for group in candidates.start / GROUP..candidates.end.div_ceil(GROUP) {
+                let mut left = Reach::among(group, &candidates);
+                if validities.is_some() {
+                    left &= self.reach.meeting(group, window, reach);
                 }
-                let component = self.template.stored_at(index)?;
-                let offset = component.offset(at);
-                let square = validity.map(|validity| validity.square(offset));
-                if let Some((validity, square)) = validity.zip(square)
-                    && !validity.contains_at(square)
-                {
-                    continue;
-                }
-                let prepared = self.prepared.get(index)?;
-                let (mut excess, mut weight) = (0.0, 0.0);
-                if let Some(blend) = &blend {
-                    excess = blend.excess(self.template.exponent(index, at));
-                    weight = math::exp(-excess);
-                    let heard = weight > 0.0;
-                    if !heard {
+                while left != 0 {
+                    let index = group * GROUP + left.trailing_zeros() as usize;
+                    left &= left - 1;
+                    let validity = validities.and_then(|all| all.get(index));
+                    if let Some(validity) = &validity
+                        && (!validity.meets(window) || validity.meets(asked))
+                    {
                         continue;
                     }
-                }
-                let prediction = self.predict(component, prepared, offset, square, validity);
-                if let Some(blend) = &mut blend
-                    && (prediction.is_some() || validity.is_none())
-                {
-                    blend.weigh(weight, prepared);
-                }
-                let Some(prediction) = prediction else {
-                    continue;
-                };
-                if let Some(blend) = &mut blend {
-                    blend.add(self.likelihood, excess, &prediction, prepared);
-                }
-                let cost = excess + self.cost(prediction.half_square, prepared);
-                if best.as_ref().is_none_or(|(least, first, _)| {
-                    cost < *least || (cost == *least && index < *first)
-                }) {
-                    best = Some((cost, index, prediction));
+                    let component = self.template.stored_at(index)?;
+                    let offset = component.offset(at);
+                    let square = validity.map(|validity| validity.square(offset));
+                    if let Some((validity, square)) = validity.zip(square)
+                        && !validity.contains_at(square)
+                    {
+                        continue;
+                    }
+                    let prepared = self.prepared.get(index)?;
+                    let (mut excess, mut weight) = (0.0, 0.0);
+                    if let Some(blend) = &blend {
+                        excess = blend.excess(self.template.exponent(index, at));
+                        weight = math::exp(-excess);
+                        let heard = weight > 0.0;
+                        if !heard {
+                            continue;
+                        }
+                    }
+                    let prediction = self.predict(component, prepared, offset, square, validity);
+                    if let Some(blend) = &mut blend
+                        && (prediction.is_some() || validity.is_none())
+                    {
+                        blend.weigh(weight, prepared);
+                    }
+                    let Some(prediction) = prediction else {
+                        continue;
+                    };
+                    if let Some(blend) = &mut blend {
+                        blend.add(self.likelihood, excess, &prediction, prepared);
+                    }
+                    let cost = excess + self.cost(prediction.half_square, prepared);
+                    if best.as_ref().is_none_or(|(least, first, _)| {
+                        cost < *least || (cost == *least && index < *first)
+                    }) {
+                        best = Some((cost, index, prediction));
+                    }
                 }
             }
             if reach == f32::INFINITY {

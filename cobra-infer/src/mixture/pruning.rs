@@ -304,3 +304,38 @@ fn a_point_on_one_of_many_patches_asks_few() {
     assert_eq!(found.map(|found| found.component), Some(1));
     assert_eq!(made, 5, "one component of five terms");
 }
+
+#[test]
+fn components_of_every_group_are_found() {
+    // A sphere of 18 around each of 70 points along x, each with its own slice of it as box.
+    let parts: Vec<Part> = (0..70_u8)
+        .map(|index| {
+            let x = f32::from(index) * 1.4 - 48.0;
+            let mut part = Part::whole([x, 0.0, 0.0], 18.0);
+            part.weights.fill(0.0);
+            let position = 64.0 + x * 64.0 / RADIUS;
+            part.low[0] = (position - 2.0).max(0.0) as u8;
+            part.high[0] = (position + 2.0).min(127.0) as u8;
+            part
+        })
+        .collect();
+    let bytes = encoded(&parts, [0.0; 3]);
+    let template = Template::from_bytes(&bytes).unwrap();
+    let settings = settings(Likelihood::Peak, Sigma::Template { noise: 0.0 });
+    let some = Mixture::<70>::new(&template, &settings).unwrap();
+    let mut all = some.clone();
+    all.reach.first = f32::INFINITY;
+    for (index, part) in parts.iter().enumerate() {
+        let [x, ..] = part.centre;
+        for off in [0.0, 0.3, 2.5, 6.0] {
+            let point = Point3::new(x, 18.0 + off, 0.0);
+            let (found, made) = evaluations::during(|| some.evaluate(&point));
+            let (expected, most) = evaluations::during(|| all.evaluate(&point));
+            assert_eq!(bits(found), bits(expected), "{index} {off}");
+            assert!(
+                found.is_some() && (off > 1.0 || made < most / 8),
+                "{made} of {most}"
+            );
+        }
+    }
+}

@@ -11,9 +11,11 @@
 //! the residual, and so is the cost, of which the logarithm, at most 89, is off by 2⁻¹⁸. Conversion to
 //! positions rounds nothing that matters: it keeps order.
 
+use super::slabs::{GROUP, Slabs};
 use crate::math::{self, Real};
-use crate::template::{Template, Window};
+use crate::template::{Template, Validities, Window};
 use crate::validity::BoxGrid;
+use core::ops::Range;
 
 /// What the reach is widened by, as a share of all lengths that are rounded on the way to it: 2⁻¹⁸.
 const SLACK: f32 = 1.0 / 262_144.0;
@@ -31,6 +33,7 @@ pub(super) struct Reach {
     least_cost: f32,
     /// The largest coordinate of a reference point, in magnitude.
     furthest: f32,
+    slabs: Slabs,
 }
 
 impl Reach {
@@ -42,6 +45,7 @@ impl Reach {
             largest_sigma: 0.0,
             least_cost: f32::INFINITY,
             furthest: 0.0,
+            slabs: Slabs::NONE,
         }
     }
 
@@ -55,8 +59,29 @@ impl Reach {
     }
 
     /// All components are taken in, and need not be asked all at once.
-    pub(super) fn prune(&mut self) {
+    pub(super) fn prune(&mut self, validities: &Validities<'_>) {
         self.first = FIRST * self.largest_sigma;
+        self.slabs.take(validities);
+    }
+
+    /// The components of a group that may meet a window of this reach, and perhaps others.
+    #[inline]
+    pub(super) fn meeting(&self, group: usize, window: Window, reach: f32) -> u32 {
+        if reach == f32::INFINITY {
+            return u32::MAX;
+        }
+        self.slabs.meeting(group, window)
+    }
+
+    /// The components of a group that are among some of them.
+    #[inline]
+    pub(super) fn among(group: usize, all: &Range<usize>) -> u32 {
+        let first = group * GROUP;
+        let below = |end: usize| match end.saturating_sub(first) {
+            count @ 0..GROUP => (1_u32 << count).wrapping_sub(1),
+            _ => u32::MAX,
+        };
+        below(all.end) & !below(all.start)
     }
 
     /// The positions that are no farther than `reach` from a point along each axis.

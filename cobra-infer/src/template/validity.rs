@@ -220,6 +220,14 @@ impl Window {
         high: 0,
     };
 
+    /// Its ends along each axis.
+    #[inline]
+    pub(crate) const fn axes(self) -> [(u8, u8); 3] {
+        let [x, y, z, _] = self.low.to_le_bytes();
+        let [u, v, w, _] = self.high.to_le_bytes();
+        [(x, u), (y, v), (z, w)]
+    }
+
     /// From one position to another.
     #[inline]
     pub(crate) const fn between([x, y, z]: [u8; 3], [u, v, w]: [u8; 3]) -> Self {
