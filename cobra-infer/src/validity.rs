@@ -91,10 +91,15 @@ pub type Square = [f32; 2];
 /// c < 0 the folded (1 − |q|)·sign p, (1 − |p|)·sign q in their place (of 0 the sign is +).
 ///
 /// The offset need not be of any length. One that is 0 or not finite lies nowhere.
-// Out of line: scoring asks it in several places.
 #[must_use]
 #[inline(never)]
 pub fn square(pole: Pole, offset: [f32; 3]) -> Square {
+    project(pole, offset)
+}
+
+/// [`square`], for where it is most of what is done.
+#[inline(always)]
+pub(crate) fn project(pole: Pole, offset: [f32; 3]) -> Square {
     let [a, b, c] = pole.turn(offset);
     let inverse = 1.0 / ((math::abs(a) + math::abs(b)) + math::abs(c));
     let (mut p, mut q) = (a * inverse, b * inverse);

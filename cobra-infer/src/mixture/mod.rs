@@ -325,14 +325,15 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
                     {
                         continue;
                     }
-                    let component = self.template.stored_at(index)?;
-                    let offset = component.offset(at);
-                    let square = validity.map(|validity| validity.square(offset));
-                    if let Some((validity, square)) = validity.zip(square)
-                        && !validity.contains_at(square)
-                    {
-                        continue;
+                    let offset = self.template.offset(index, at)?;
+                    let mut square = None;
+                    if let Some(validity) = &validity {
+                        square = validity.square(offset);
+                        if square.is_none() {
+                            continue;
+                        }
                     }
+                    let component = self.template.stored_at(index)?;
                     let prepared = self.prepared.get(index)?;
                     let (mut excess, mut weight) = (0.0, 0.0);
                     if let Some(blend) = &blend {

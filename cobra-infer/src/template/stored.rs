@@ -25,6 +25,12 @@ impl<'a> Template<'a> {
             .map(move |record| Stored::new(record, values))
     }
 
+    /// P − C_k of component `index`.
+    #[inline]
+    pub(crate) fn offset(&self, index: usize, point: [f32; 3]) -> Option<[f32; 3]> {
+        Some(wire::offset(self.records.get(index)?, point))
+    }
+
     /// Component `index` as it lies in the file.
     #[inline]
     pub(crate) fn stored_at(&self, index: usize) -> Option<Stored<'a>> {
@@ -36,12 +42,6 @@ impl<'a> Stored<'a> {
     #[inline]
     pub(super) fn new(record: &'a Record, values: TermValues<'a>) -> Self {
         Self { record, values }
-    }
-
-    /// P − C_k.
-    #[inline]
-    pub(crate) fn offset(&self, point: [f32; 3]) -> [f32; 3] {
-        wire::offset(self.record, point)
     }
 
     /// C_k.

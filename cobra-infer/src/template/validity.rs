@@ -5,7 +5,7 @@
 //! block's two bits, and of a block that is valid in part its cells.
 
 use super::wire::{BLOCK_SIDE, LEAF_LENGTH, ROW_LENGTH, ValidityRecord};
-use crate::validity::{BOX_STEPS, Cell, Pole, Square, cell_at, square};
+use crate::validity::{BOX_STEPS, Cell, Pole, Square, cell_at, project};
 
 /// The validities of all components.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,7 +92,8 @@ impl<'a> Validity<'a> {
     /// Cells along a side of the map.
     #[must_use]
     pub fn side(&self) -> u8 {
-        self.blocks().saturating_mul(BLOCK_SIDE)
+        // Loading has refused more than 16.
+        self.blocks().wrapping_mul(BLOCK_SIDE)
     }
 
     /// The least position of the box along each axis.
@@ -140,20 +141,17 @@ impl<'a> Validity<'a> {
     /// which need not be of any length.
     #[must_use]
     pub fn contains_direction(&self, offset: [f32; 3]) -> bool {
-        self.contains_at(self.square(offset))
+        self.square(offset).is_some()
     }
 
-    /// Where the direction of this offset from the reference point lies on the map of directions.
-    #[inline]
-    pub(crate) fn square(&self, offset: [f32; 3]) -> Square {
-        square(self.pole(), offset)
-    }
-
-    /// As [`Validity::contains_direction`], of a place on the map.
+    /// Where the direction of this offset from the reference point lies on the map of directions, if
+    /// the component may speak in it.
     // Out of line: scoring asks it in three places.
     #[inline(never)]
-    pub(crate) fn contains_at(&self, at: Square) -> bool {
-        self.contains(cell_at(self.side(), at))
+    pub(crate) fn square(&self, offset: [f32; 3]) -> Option<Square> {
+        let square = project(self.pole(), offset);
+        self.contains(cell_at(self.side(), square))
+            .then_some(square)
     }
 
     /// Whether a cell is valid.
