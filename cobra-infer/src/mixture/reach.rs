@@ -90,22 +90,16 @@ impl Reach {
         let reach = reach + (((x + y) + z) + (self.furthest + reach)) * SLACK;
         let [x, y, z] = at;
         Window::between(
-            self.grid_position([x - reach, y - reach, z - reach]),
-            self.grid_position([x + reach, y + reach, z + reach]),
+            self.grid.position([x - reach, y - reach, z - reach]),
+            self.grid.position([x + reach, y + reach, z + reach]),
         )
     }
 
     /// The position of a point alone.
     #[inline]
     pub(super) fn position(&self, point: [f32; 3]) -> Window {
-        let position = self.grid_position(point);
+        let position = self.grid.position(point);
         Window::between(position, position)
-    }
-
-    // Out of line: it is needed in three places.
-    #[inline(never)]
-    fn grid_position(&self, point: [f32; 3]) -> [u8; 3] {
-        self.grid.position(point)
     }
 
     /// The largest residual that costs no more than `best`, the least cost so far.
