@@ -40,7 +40,7 @@
 /**
  * Bytes that a scorer's handle takes on every processor, besides those for each component.
  */
-#define COBRA_SCORER_BASE_SIZE 256
+#define COBRA_SCORER_BASE_SIZE 448
 
 /**
  * Bytes that a scorer's handle takes for each component that it has room for.
@@ -236,6 +236,14 @@ enum CobraStatus
    * Cells belong to no component.
    */
   COBRA_STATUS_TEMPLATE_UNUSED_CELLS = 134,
+  /**
+   * Maps have no validity that says where they hold.
+   */
+  COBRA_STATUS_TEMPLATE_MAP_VALIDITY = 135,
+  /**
+   * A component's map has not the nodes, the size or the pole that it must have.
+   */
+  COBRA_STATUS_TEMPLATE_MAP_GRID = 136,
   /**
    * An entry of the camera matrix is not finite.
    */

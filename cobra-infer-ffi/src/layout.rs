@@ -15,7 +15,7 @@ pub const COBRA_TEMPLATE_SIZE: usize = 160;
 pub const COBRA_TEMPLATE_ALIGN: usize = 8;
 
 /// Bytes that a scorer's handle takes on every processor, besides those for each component.
-pub const COBRA_SCORER_BASE_SIZE: usize = 256;
+pub const COBRA_SCORER_BASE_SIZE: usize = 448;
 
 /// Bytes that a scorer's handle takes for each component that it has room for.
 pub const COBRA_SCORER_COMPONENT_SIZE: usize = 12;

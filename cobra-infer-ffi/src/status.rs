@@ -98,6 +98,10 @@ pub enum CobraStatus {
     TemplateValidityCells = 133,
     /// Cells belong to no component.
     TemplateUnusedCells = 134,
+    /// Maps have no validity that says where they hold.
+    TemplateMapValidity = 135,
+    /// A component's map has not the nodes, the size or the pole that it must have.
+    TemplateMapGrid = 136,
 
     /// An entry of the camera matrix is not finite.
     CameraNotFinite = 200,
@@ -137,7 +141,7 @@ use CobraStatus as S;
 
 impl CobraStatus {
     /// Every status, in the order of its number.
-    pub(crate) const ALL: [Self; 57] = [
+    pub(crate) const ALL: [Self; 59] = [
         S::Ok,
         S::NullPointer,
         S::Misaligned,
@@ -180,6 +184,8 @@ impl CobraStatus {
         S::TemplateValidityRange,
         S::TemplateValidityCells,
         S::TemplateUnusedCells,
+        S::TemplateMapValidity,
+        S::TemplateMapGrid,
         S::CameraNotFinite,
         S::CameraFocalLength,
         S::CameraShape,
@@ -251,6 +257,10 @@ impl CobraStatus {
             S::TemplateValidityRange => c"a component's cells do not follow those before it",
             S::TemplateValidityCells => c"a component's cells are malformed, or none is valid",
             S::TemplateUnusedCells => c"the template has cells that no component uses",
+            S::TemplateMapValidity => c"maps need a validity section",
+            S::TemplateMapGrid => {
+                c"a component's map has not the nodes, the size or the pole it must have"
+            }
             S::CameraNotFinite => c"an entry of the camera matrix is not finite",
             S::CameraFocalLength => c"a focal length is not positive",
             S::CameraShape => c"the camera matrix is not (fx s cx; 0 fy cy; 0 0 1)",
@@ -311,6 +321,8 @@ impl From<TemplateError> for CobraStatus {
             E::ValidityRange { .. } => S::TemplateValidityRange,
             E::ValidityCells { .. } => S::TemplateValidityCells,
             E::UnusedCells { .. } => S::TemplateUnusedCells,
+            E::MapValidity => S::TemplateMapValidity,
+            E::MapGrid { .. } => S::TemplateMapGrid,
         }
     }
 }

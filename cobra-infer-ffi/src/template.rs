@@ -252,7 +252,17 @@ pub(crate) fn detail(error: TemplateError) -> CobraTemplateDetail {
             detail.component = number(component);
             detail.found = number(row);
         }
-        E::KernelLeftOut { .. } | E::MetricLeftOut { .. } | E::NoComponents | E::CompactAngles => {}
+        E::MapGrid {
+            component, found, ..
+        } => {
+            detail.component = number(component);
+            detail.found = number(found);
+        }
+        E::KernelLeftOut { .. }
+        | E::MetricLeftOut { .. }
+        | E::NoComponents
+        | E::CompactAngles
+        | E::MapValidity => {}
     }
     detail
 }

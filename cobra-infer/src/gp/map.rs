@@ -187,7 +187,7 @@ mod tests {
             } else if at >= f32::from(most) {
                 most
             } else {
-                at.floor() as u8
+                at as u8
             };
             let t = at - f32::from(first);
             let r = 1.0 - t;

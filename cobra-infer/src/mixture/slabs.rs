@@ -10,8 +10,9 @@ use crate::validity::BOX_STEPS;
 /// Components in a group, which are told apart by the bits of a word.
 pub(super) const GROUP: usize = 32;
 
-/// Groups whose boxes are sorted into slabs; components beyond them are looked at one by one.
-const GROUPS: usize = 2;
+/// Groups whose boxes are sorted into slabs; components beyond them are looked at one by one. A group
+/// takes 192 bytes of RAM.
+const GROUPS: usize = 1;
 
 /// Slabs along an axis.
 const SLABS: usize = 16;

@@ -85,8 +85,9 @@ fn documented(map: &Map, prior_mean: f32, [x, y, z]: [f32; 3]) -> f32 {
         (p, q) = ((1.0 - q.abs()) * sign(p), (1.0 - p.abs()) * sign(q));
     }
     let along = |at: f32, count: u8| {
-        let first = (at.max(0.0).floor()).min(f32::from(count - 4));
-        let t = at - first;
+        // Below 0 and of NaN 0, else rounded down.
+        let first = (at as u32).min(u32::from(count - 4));
+        let t = at - first as f32;
         let r = 1.0 - t;
         let weights = [
             (r * r) * r,
