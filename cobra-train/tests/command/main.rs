@@ -10,6 +10,7 @@ mod geometry_input;
 mod help;
 mod inspect;
 mod learning;
+mod map;
 mod output;
 mod placement;
 mod run;
