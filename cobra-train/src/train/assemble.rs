@@ -149,6 +149,19 @@ impl ScaledComponent {
         self.validity.as_ref().map(|validity| &validity.cells)
     }
 
+    /// The same component, silent in the cells that are not among these of the same grid. `None` where
+    /// no valid cell is left.
+    pub(super) fn valid_within(&self, cells: &ValidCells) -> Option<Self> {
+        let mut restricted = self.clone();
+        let own = &mut restricted.validity.as_mut()?.cells;
+        if (own.pole, own.side) == (cells.pole, cells.side) {
+            for (valid, other) in own.cells.iter_mut().zip(&cells.cells) {
+                *valid &= *other;
+            }
+        }
+        (own.count() > 0).then_some(restricted)
+    }
+
     pub(super) fn with_validity(self, validity: ScaledValidity) -> Self {
         Self {
             validity: Some(validity),

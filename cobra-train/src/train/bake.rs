@@ -95,6 +95,7 @@ pub(super) fn bake_parts(
         };
         refine(&mut parts, spare);
         let verified = verify_parts(frame, baked(&parts, frame), training)?;
+        let verified = fitted_cells(verified, &parts);
         // What is verified may have other cells than the exact components had.
         let found = length(frame, &verified)?;
         let Some(over) = found.checked_sub(budget).filter(|over| *over > 0) else {
@@ -105,6 +106,18 @@ pub(super) fn bake_parts(
             least: found,
         })?;
     }
+}
+
+/// The parts without the cells that their maps were not fitted in: what a map says there is near the
+/// surface by accident, and far from the exact mean.
+fn fitted_cells(verified: Vec<Part>, parts: &[(Part, Choice)]) -> Vec<Part> {
+    let restricted = |part: Part| {
+        let same = |(exact, _): &&(Part, Choice)| exact.patch.own == part.patch.own;
+        let (exact, _) = parts.iter().find(same)?;
+        let scaled = part.scaled.valid_within(exact.scaled.cells()?)?;
+        Some(Part { scaled, ..part })
+    };
+    verified.into_iter().filter_map(restricted).collect()
 }
 
 /// Spends `spare` bytes, those first that take most of the squared error away.
