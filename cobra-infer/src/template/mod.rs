@@ -207,12 +207,13 @@ impl<'a> Template<'a> {
         }
     }
 
-    /// How many bytes all terms take: directions, weights and, of compact ones, a scale a component.
+    /// How many bytes all terms take: directions, weights and, of compact ones, a scale a
+    /// component; of maps, what is said of each and its nodes.
     #[must_use]
     pub fn terms_len(&self) -> usize {
         match self.values {
             TermValues::Exact(quads) => quads.as_flattened().as_flattened().len(),
-            TermValues::Compact(bytes) => bytes.len(),
+            TermValues::Compact(bytes) | TermValues::Map(bytes) => bytes.len(),
         }
     }
 

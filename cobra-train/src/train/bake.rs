@@ -10,7 +10,7 @@ use crate::gp::{
     Baked, Coordinates, FittedGp, Hyperparameters, Sample, bake, coordinates, covariances,
 };
 use crate::surface::SurfacePoint;
-use crate::validity::ValidCells;
+use crate::validity::{FINE_CELLS, ValidCells};
 use cobra_infer::Template;
 use cobra_infer::gp::UnitDirection;
 use cobra_infer::validity::direction;
@@ -94,7 +94,7 @@ pub(super) fn bake_parts(
             continue;
         };
         refine(&mut parts, spare);
-        let verified = verify_parts(frame, baked(&parts, frame), training)?;
+        let verified = verify_parts(frame, baked(&parts, frame), training, FINE_CELLS)?;
         let verified = fitted_cells(verified, &parts);
         // What is verified may have other cells than the exact components had.
         let found = length(frame, &verified)?;
