@@ -7,6 +7,7 @@
 #![no_std]
 
 pub mod golden;
+pub mod object;
 pub mod report;
 pub mod square_root;
 pub mod vectors;
