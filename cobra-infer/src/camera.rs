@@ -135,6 +135,7 @@ impl Camera {
 
     /// K⁻¹p: the ray through a pixel, scaled to z = 1.
     #[must_use]
+    #[inline(always)]
     pub fn ray(&self, pixel: &Point2<f32>) -> Vector3<f32> {
         let y = (pixel.y - self.cy) / self.fy;
         let x = ((pixel.x - self.cx) - self.skew * y) / self.fx;
@@ -184,6 +185,7 @@ impl Camera {
     /// point lies behind the camera; the result is still returned, and it is not finite where
     /// the arithmetic overflows.
     #[must_use]
+    #[inline(always)]
     pub fn back_project(
         &self,
         pose: &Pose,

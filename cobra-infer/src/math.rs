@@ -133,10 +133,11 @@ pub fn ln(x: f32) -> f32 {
 }
 
 /// Absolute value, by the sign bit alone.
-#[inline]
+// Not libm's: at `opt-level = "s"` that is a call.
+#[inline(always)]
 #[must_use]
 pub fn abs(x: f32) -> f32 {
-    libm::fabsf(x)
+    f32::from_bits(x.to_bits() & 0x7fff_ffff)
 }
 
 /// (a₀b₀ + a₁b₁) + a₂b₂, in that order.

@@ -71,6 +71,7 @@ impl Pose {
 
     /// RP + t: from the object's frame to the camera's.
     #[must_use]
+    #[inline(always)]
     pub fn to_camera(&self, point: &Point3<f32>) -> Point3<f32> {
         let p = [point.x, point.y, point.z];
         let r = self.rotation.matrix();
@@ -84,6 +85,7 @@ impl Pose {
 
     /// Rᵀ(p − t): from the camera's frame to the object's.
     #[must_use]
+    #[inline(always)]
     pub fn to_object(&self, point: &Point3<f32>) -> Point3<f32> {
         let t = &self.translation;
         let p = [point.x - t.x, point.y - t.y, point.z - t.z];
@@ -207,6 +209,7 @@ mod tests {
     }
 
     #[test]
+    #[inline(always)]
     fn to_object_undoes_to_camera() {
         let pose = Pose::from_row_major(QUARTER_TURN, [5., 6., 700.]).unwrap();
         let point = Point3::new(1., 2., 3.);

@@ -120,7 +120,7 @@ impl<'a> Map<'a> {
     /// scale·S of the module's documentation; NaN where there is no such node, which loading has
     /// refused.
     #[inline]
-    pub(super) fn above_prior(&self, [p, q]: Square) -> f32 {
+    pub(crate) fn above_prior(&self, [p, q]: Square) -> f32 {
         let (spacing, [x, y]) = (self.spacing(), self.origin());
         let (column, across) = place(p * spacing + x, self.columns());
         let (row, along) = place(q * spacing + y, self.rows());

@@ -14,12 +14,13 @@
 #[cfg(test)]
 mod pruning;
 mod reach;
+mod search;
 mod slabs;
 mod soft;
 
 use crate::bound::{self, Threshold};
 use crate::error::ScoreError;
-use crate::gp;
+use crate::gp::{self, UnitDirection};
 use crate::math::{self, Real, SQRT_TWO_PI};
 use crate::template::{Stored, Template, Validity, Window};
 use crate::tolerance;
@@ -27,7 +28,6 @@ use crate::validity::Square;
 use heapless::Vec;
 use nalgebra::Point3;
 use reach::Reach;
-use slabs::GROUP;
 use soft::Blend;
 
 /// Which likelihood a residual e under standard deviation σ has.
@@ -289,6 +289,12 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
     #[must_use]
     pub fn evaluate(&self, point: &Point3<f32>) -> Option<Match> {
         let at = [point.x, point.y, point.z];
+        if let Some(validities) = self.template.validities()
+            && self.assignment == Assignment::Maximum
+        {
+            let (component, prediction) = self.most_probable(validities, at)?;
+            return self.finish(component, prediction, None);
+        }
         let mut blend = None;
         let candidates = match self.assignment {
             Assignment::Nearest => {
@@ -303,77 +309,56 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
         };
         let validities = self.template.validities();
         let mut best: Option<(f32, usize, Prediction)> = None;
-        let mut asked = Window::NOTHING;
-        let mut reach = self.reach.first;
-        // The second look reaches as far as the first one's answer asks for, and can only improve it.
-        for _ in 0..2 {
-            let window = match validities {
-                Some(_) => self.reach.window(at, reach),
-                None => asked,
+        for index in candidates {
+            let component = self.template.stored_at(index)?;
+            let offset = component.offset(at);
+            let validity = validities.and_then(|all| all.get(index));
+            let mut square = None;
+            if let Some(validity) = &validity {
+                square = validity.square(offset);
+                if square.is_none() {
+                    continue;
+                }
+            }
+            let prepared = self.prepared.get(index)?;
+            let (mut excess, mut weight) = (0.0, 0.0);
+            if let Some(blend) = &blend {
+                excess = blend.excess(self.template.exponent(index, at));
+                weight = math::exp(-excess);
+                let heard = weight > 0.0;
+                if !heard {
+                    continue;
+                }
+            }
+            let prediction = self.predict(component, prepared, offset, square, validity);
+            if let Some(blend) = &mut blend
+                && (prediction.is_some() || validity.is_none())
+            {
+                blend.weigh(weight, prepared);
+            }
+            let Some(prediction) = prediction else {
+                continue;
             };
-            for group in candidates.start / GROUP..candidates.end.div_ceil(GROUP) {
-                let mut left = Reach::among(group, &candidates);
-                if validities.is_some() {
-                    left &= self.reach.meeting(group, window, reach);
-                }
-                while left != 0 {
-                    let index = group * GROUP + left.trailing_zeros() as usize;
-                    left &= left - 1;
-                    let validity = validities.and_then(|all| all.get(index));
-                    if let Some(validity) = &validity
-                        && (!validity.meets(window) || validity.meets(asked))
-                    {
-                        continue;
-                    }
-                    let offset = self.template.offset(index, at)?;
-                    let mut square = None;
-                    if let Some(validity) = &validity {
-                        square = validity.square(offset);
-                        if square.is_none() {
-                            continue;
-                        }
-                    }
-                    let component = self.template.stored_at(index)?;
-                    let prepared = self.prepared.get(index)?;
-                    let (mut excess, mut weight) = (0.0, 0.0);
-                    if let Some(blend) = &blend {
-                        excess = blend.excess(self.template.exponent(index, at));
-                        weight = math::exp(-excess);
-                        let heard = weight > 0.0;
-                        if !heard {
-                            continue;
-                        }
-                    }
-                    let prediction = self.predict(component, prepared, offset, square, validity);
-                    if let Some(blend) = &mut blend
-                        && (prediction.is_some() || validity.is_none())
-                    {
-                        blend.weigh(weight, prepared);
-                    }
-                    let Some(prediction) = prediction else {
-                        continue;
-                    };
-                    if let Some(blend) = &mut blend {
-                        blend.add(self.likelihood, excess, &prediction, prepared);
-                    }
-                    let cost = excess + self.cost(prediction.half_square, prepared);
-                    if best.as_ref().is_none_or(|(least, first, _)| {
-                        cost < *least || (cost == *least && index < *first)
-                    }) {
-                        best = Some((cost, index, prediction));
-                    }
-                }
+            if let Some(blend) = &mut blend {
+                blend.add(self.likelihood, excess, &prediction, prepared);
             }
-            if reach == f32::INFINITY {
-                break;
+            let cost = excess + self.cost(prediction.half_square, prepared);
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                best = Some((cost, index, prediction));
             }
-            let needed = self.reach.needed(best.as_ref().map(|(cost, ..)| *cost));
-            if needed <= reach {
-                break;
-            }
-            (asked, reach) = (window, needed);
         }
         let (_, component, prediction) = best?;
+        self.finish(component, prediction, blend.as_ref())
+    }
+
+    /// Turns the answer of the component that speaks into a likelihood.
+    #[inline(always)]
+    fn finish(
+        &self,
+        component: usize,
+        prediction: Prediction,
+        blend: Option<&Blend>,
+    ) -> Option<Match> {
         let prepared = self.prepared.get(component)?;
         let (likelihood, threshold) = match blend {
             Some(blend) => blend.finish(self.likelihood),
@@ -407,7 +392,9 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
         }
     }
 
-    #[inline]
+    /// What a component says of the point at this offset from its reference point, which lies at `square`
+    /// on its map of directions; `None` where that is nothing.
+    #[inline(never)]
     fn predict(
         &self,
         component: Stored<'t>,
@@ -416,25 +403,47 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
         square: Option<Square>,
         validity: Option<Validity<'t>>,
     ) -> Option<Prediction> {
+        let (prediction, direction) = self.ask(component, prepared, offset, square)?;
+        let speaks = validity.is_none_or(|validity| {
+            let window = self.place(component, &direction, prediction.predicted);
+            validity.meets(window)
+        });
+        speaks.then_some(prediction)
+    }
+
+    /// What a component would say if it may, and the direction that it was asked in.
+    #[inline(always)]
+    fn ask(
+        &self,
+        component: Stored<'t>,
+        prepared: &Prepared,
+        offset: [f32; 3],
+        square: Option<Square>,
+    ) -> Option<(Prediction, UnitDirection)> {
         let (direction, distance) = gp::direction_and_length(offset, self.smallest_distance)?;
         let predicted = component.posterior_mean(self.template.model(), &direction, square);
         if !predicted.is_finite() {
             return None;
         }
-        if let Some(validity) = validity {
-            let [x, y, z] = component.centre();
-            let [dx, dy, dz] = [direction.x, direction.y, direction.z].map(|u| predicted * u);
-            let position = self.reach.position([x + dx, y + dy, z + dz]);
-            if !validity.meets(position) {
-                return None;
-            }
-        }
         let scaled = (distance - predicted) * prepared.inverse_sigma;
-        Some(Prediction {
+        let prediction = Prediction {
             distance,
             predicted,
             half_square: 0.5 * scaled * scaled,
-        })
+        };
+        Some((prediction, direction))
+    }
+
+    /// Where the point lies that a component predicts.
+    #[inline(always)]
+    fn place(&self, component: Stored<'t>, u: &UnitDirection, predicted: f32) -> Window {
+        let [x, y, z] = component.centre();
+        let point = [
+            x + predicted * u.x,
+            y + predicted * u.y,
+            z + predicted * u.z,
+        ];
+        self.reach.position(point)
     }
 }
 

@@ -15,7 +15,6 @@ use super::slabs::{GROUP, Slabs};
 use crate::math::{self, Real};
 use crate::template::{Template, Validities, Window};
 use crate::validity::BoxGrid;
-use core::ops::Range;
 
 /// What the reach is widened by, as a share of all lengths that are rounded on the way to it: 2⁻¹⁸.
 const SLACK: f32 = 1.0 / 262_144.0;
@@ -64,31 +63,24 @@ impl Reach {
         self.slabs.take(validities);
     }
 
-    /// The components of a group that may meet a window of this reach, and perhaps others.
+    /// The components of a group, of so many in all, that may meet the window, and perhaps others.
     #[inline]
-    pub(super) fn meeting(&self, group: usize, window: Window, reach: f32) -> u32 {
-        if reach == f32::INFINITY {
-            return u32::MAX;
+    pub(super) fn meeting(&self, group: usize, window: Window, count: usize) -> u32 {
+        match self.slabs.meeting(group, window) {
+            Some(components) => components,
+            None => match count.saturating_sub(group * GROUP) {
+                some @ 0..GROUP => (1_u32 << some).wrapping_sub(1),
+                _ => u32::MAX,
+            },
         }
-        self.slabs.meeting(group, window)
-    }
-
-    /// The components of a group that are among some of them.
-    #[inline]
-    pub(super) fn among(group: usize, all: &Range<usize>) -> u32 {
-        let first = group * GROUP;
-        let below = |end: usize| match end.saturating_sub(first) {
-            count @ 0..GROUP => (1_u32 << count).wrapping_sub(1),
-            _ => u32::MAX,
-        };
-        below(all.end) & !below(all.start)
     }
 
     /// The positions that are no farther than `reach` from a point along each axis.
+    #[inline(always)]
     pub(super) fn window(&self, at: [f32; 3], reach: f32) -> Window {
-        let [x, y, z] = at.map(math::abs);
-        let reach = reach + (((x + y) + z) + (self.furthest + reach)) * SLACK;
         let [x, y, z] = at;
+        let size = (math::abs(x) + math::abs(y)) + math::abs(z);
+        let reach = reach + (size + (self.furthest + reach)) * SLACK;
         Window::between(
             self.grid.position([x - reach, y - reach, z - reach]),
             self.grid.position([x + reach, y + reach, z + reach]),
@@ -103,6 +95,7 @@ impl Reach {
     }
 
     /// The largest residual that costs no more than `best`, the least cost so far.
+    #[inline(always)]
     pub(super) fn needed(&self, best: Option<f32>) -> f32 {
         let square = |cost: f32| 2.0 * (cost - self.least_cost);
         best.map_or(f32::INFINITY, |cost| {

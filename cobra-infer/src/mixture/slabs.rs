@@ -48,14 +48,12 @@ impl Slabs {
         }
     }
 
-    /// The components of a group whose boxes may meet the window, and perhaps others.
+    /// The components of a group whose boxes may meet the window, and perhaps others; `None` for a group
+    /// whose boxes are not sorted.
     #[inline]
-    pub(super) fn meeting(&self, group: usize, window: Window) -> u32 {
-        let Some(axes) = self.0.get(group) else {
-            return u32::MAX;
-        };
-        let mut all = u32::MAX;
-        for (slabs, (low, high)) in axes.iter().zip(window.axes()) {
+    pub(super) fn meeting(&self, group: usize, window: Window) -> Option<u32> {
+        let axes = self.0.get(group)?;
+        let along = |slabs: &[u32; SLABS], (low, high): (u8, u8)| {
             let (first, last) = (usize::from(low / WIDTH), usize::from(high / WIDTH));
             // The remainder is the compiler's: it then sees that there is such a slab.
             let of = |slab: usize| slabs.get(slab % SLABS).copied().unwrap_or(0);
@@ -64,8 +62,11 @@ impl Slabs {
             for slab in first.saturating_add(1)..last {
                 some |= of(slab);
             }
-            all &= some;
-        }
-        all
+            some
+        };
+        // One by one: a loop is not unrolled at `opt-level = "s"`.
+        let [x, y, z] = axes;
+        let [in_x, in_y, in_z] = window.axes();
+        Some(along(x, in_x) & along(y, in_y) & along(z, in_z))
     }
 }

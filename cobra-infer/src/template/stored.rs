@@ -25,12 +25,6 @@ impl<'a> Template<'a> {
             .map(move |record| Stored::new(record, values))
     }
 
-    /// P − C_k of component `index`.
-    #[inline]
-    pub(crate) fn offset(&self, index: usize, point: [f32; 3]) -> Option<[f32; 3]> {
-        Some(wire::offset(self.records.get(index)?, point))
-    }
-
     /// Component `index` as it lies in the file.
     #[inline]
     pub(crate) fn stored_at(&self, index: usize) -> Option<Stored<'a>> {
@@ -50,6 +44,12 @@ impl<'a> Stored<'a> {
         wire::centre(self.record)
     }
 
+    /// P − C_k.
+    #[inline]
+    pub(crate) fn offset(&self, point: [f32; 3]) -> [f32; 3] {
+        wire::offset(self.record, point)
+    }
+
     /// σ̂_k.
     pub(crate) fn sigma_hat(&self) -> f32 {
         let [_, _, _, sigma_hat, ..] = *self.record;
@@ -64,27 +64,28 @@ impl<'a> Stored<'a> {
             .unwrap_or(Terms::from_quads(&[]))
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn hyperparameters(&self) -> Hyperparameters {
         let [_, _, _, _, length_scale, parameter, prior_mean, ..] = *self.record;
-        let [length_scale, parameter, prior_mean] =
-            [length_scale, parameter, prior_mean].map(f32::from_le_bytes);
         Hyperparameters {
-            length_scale,
-            parameter,
-            prior_mean,
+            length_scale: f32::from_le_bytes(length_scale),
+            parameter: f32::from_le_bytes(parameter),
+            prior_mean: f32::from_le_bytes(prior_mean),
         }
     }
 
     /// [`Component::posterior_mean`] in the direction that lies at `square` on the component's map of
     /// directions, which there is where it has validity.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn posterior_mean(
         &self,
         model: Model,
         u: &UnitDirection,
         square: Option<Square>,
     ) -> f32 {
+        if let (Some(map), Some(square)) = (self.values.map(self.record), square) {
+            return self.hyperparameters().prior_mean + map.above_prior(square);
+        }
         gp::posterior_mean_at(model, &self.hyperparameters(), &self.terms(), u, square)
     }
 

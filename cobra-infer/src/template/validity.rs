@@ -61,6 +61,7 @@ pub(super) struct Row {
 }
 
 impl Row {
+    #[inline(always)]
     pub(super) fn from_bytes([f0, f1, m0, m1, rank]: [u8; ROW_LENGTH]) -> Self {
         Self {
             full: u16::from_le_bytes([f0, f1]),
@@ -73,17 +74,20 @@ impl Row {
 impl<'a> Validity<'a> {
     /// Which half axis points at the middle of the map of directions.
     #[must_use]
+    #[inline(always)]
     pub fn pole(&self) -> Pole {
         // Loading has refused any other number.
         Pole::from_number(self.pole_number()).unwrap_or(Pole::PlusZ)
     }
 
+    #[inline(always)]
     pub(super) fn pole_number(&self) -> u8 {
         let [[_, _, _, pole], ..] = *self.record;
         pole
     }
 
     /// Blocks along a side.
+    #[inline(always)]
     pub(super) fn blocks(&self) -> u8 {
         let [_, [_, _, _, blocks], ..] = *self.record;
         blocks
@@ -91,6 +95,7 @@ impl<'a> Validity<'a> {
 
     /// Cells along a side of the map.
     #[must_use]
+    #[inline(always)]
     pub fn side(&self) -> u8 {
         // Loading has refused more than 16.
         self.blocks().wrapping_mul(BLOCK_SIDE)
@@ -111,6 +116,7 @@ impl<'a> Validity<'a> {
     }
 
     /// The first row of blocks, and how many there are.
+    #[inline(always)]
     pub(super) fn rows(&self) -> (u8, u8) {
         let [_, _, [first, rows, ..], _] = *self.record;
         (first, rows)
@@ -123,6 +129,7 @@ impl<'a> Validity<'a> {
     }
 
     /// Where its cells start.
+    #[inline(always)]
     pub(super) fn first(&self) -> u32 {
         let [.., first] = *self.record;
         u32::from_le_bytes(first)
@@ -146,9 +153,14 @@ impl<'a> Validity<'a> {
 
     /// Where the direction of this offset from the reference point lies on the map of directions, if
     /// the component may speak in it.
-    // Out of line: scoring asks it in three places.
     #[inline(never)]
     pub(crate) fn square(&self, offset: [f32; 3]) -> Option<Square> {
+        self.locate(offset)
+    }
+
+    /// [`Validity::square`], for where it is most of what is done.
+    #[inline(always)]
+    pub(crate) fn locate(&self, offset: [f32; 3]) -> Option<Square> {
         let square = project(self.pole(), offset);
         self.contains(cell_at(self.side(), square))
             .then_some(square)
@@ -156,18 +168,24 @@ impl<'a> Validity<'a> {
 
     /// Whether a cell is valid.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn contains(&self, cell: Cell) -> bool {
         self.find(cell).unwrap_or(false)
     }
 
-    #[inline]
+    /// `None` for a row that has no valid cell.
+    #[inline(always)]
     fn find(&self, cell: Cell) -> Option<bool> {
-        let (rows, leaves) = self.run()?;
-        let (first, _) = self.rows();
+        let (first, rows) = self.rows();
         let row = (cell.row / BLOCK_SIDE).checked_sub(first)?;
-        let row = Row::from_bytes(*rows.get(usize::from(row))?);
-        let block = 1_u16.checked_shl(u32::from(cell.column / BLOCK_SIDE))?;
+        if row >= rows {
+            return None;
+        }
+        // Loading has refused a component whose rows and cells do not lie inside the section.
+        let run = self.cells.get(usize::try_from(self.first()).ok()?..)?;
+        let at = |row: u8| usize::from(row) * ROW_LENGTH;
+        let row = Row::from_bytes(*run.get(at(row)..)?.first_chunk()?);
+        let block = 1_u16.wrapping_shl(u32::from(cell.column / BLOCK_SIDE));
         if row.full & block != 0 {
             return Some(true);
         }
@@ -175,7 +193,8 @@ impl<'a> Validity<'a> {
             return Some(false);
         }
         let before = (row.mixed & block.wrapping_sub(1)).count_ones();
-        let leaf = leaves.get(usize::from(row.rank).saturating_add(before as usize))?;
+        let leaf = usize::from(row.rank).saturating_add(before as usize) * LEAF_LENGTH;
+        let leaf = run.get(at(rows).saturating_add(leaf)..)?.first_chunk()?;
         let bit = (cell.row % BLOCK_SIDE) * BLOCK_SIDE + cell.column % BLOCK_SIDE;
         Some((u16::from_le_bytes(*leaf) >> bit) & 1 != 0)
     }

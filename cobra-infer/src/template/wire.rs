@@ -271,6 +271,7 @@ pub(super) struct QualitySection<B> {
 
 /// The term range that a record names: the first term, or the first byte of compact ones, and the
 /// number of terms.
+#[inline(always)]
 pub(super) fn term_range(record: &Record) -> (u32, u32) {
     let [.., first, count] = *record;
     (u32::from_le_bytes(first), u32::from_le_bytes(count))
@@ -303,14 +304,23 @@ impl<'a> TermValues<'a> {
                     terms.get(..count)?,
                 ))
             }
-            Self::Map(bytes) => {
-                let (header, nodes) = bytes
-                    .get(first..)?
-                    .split_first_chunk::<{ map::HEADER_LENGTH }>()?;
-                let header = header.as_chunks().0.first_chunk()?;
-                Some(Terms::from_map(Map::new(header, nodes.get(..count)?)))
-            }
+            Self::Map(_) => self.map(record).map(Terms::from_map),
         }
+    }
+
+    /// A component's map, where components have maps.
+    #[inline(always)]
+    pub(super) fn map(self, record: &Record) -> Option<Map<'a>> {
+        let Self::Map(bytes) = self else {
+            return None;
+        };
+        let (first, count) = term_range(record);
+        let (first, count) = (usize::try_from(first).ok()?, usize::try_from(count).ok()?);
+        let (header, nodes) = bytes
+            .get(first..)?
+            .split_first_chunk::<{ map::HEADER_LENGTH }>()?;
+        let header = header.as_chunks().0.first_chunk()?;
+        Some(Map::new(header, nodes.get(..count)?))
     }
 
     /// Where the terms behind a component's start, in the unit of its record.
@@ -338,7 +348,12 @@ impl<'a> TermValues<'a> {
 #[inline]
 pub(super) fn centre(record: &Record) -> [f32; 3] {
     let [x, y, z, ..] = *record;
-    [x, y, z].map(f32::from_le_bytes)
+    // One by one: a `map` is a loop at `opt-level = "s"`.
+    [
+        f32::from_le_bytes(x),
+        f32::from_le_bytes(y),
+        f32::from_le_bytes(z),
+    ]
 }
 
 /// P − C_k.

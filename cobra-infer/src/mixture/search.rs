@@ -1,0 +1,64 @@
+//! The most probable of the components that may speak for a point: maximum assignment with validity.
+//!
+//! Owns the loop over the components that a point's window leaves, which is most of what a point costs
+//! where components have maps. Which these are is [`super::reach`]'s.
+
+use super::slabs::GROUP;
+use super::{Mixture, Prediction};
+use crate::template::{Validities, Window};
+
+impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
+    /// The component of the least cost, the first of equals, and what it says.
+    #[inline]
+    pub(super) fn most_probable(
+        &self,
+        validities: &Validities<'_>,
+        at: [f32; 3],
+    ) -> Option<(usize, Prediction)> {
+        let mut best = None;
+        let mut least = f32::INFINITY;
+        let mut asked = Window::NOTHING;
+        let mut reach = self.reach.first;
+        // The second look reaches as far as the first one's answer asks for, and can only improve it.
+        for _ in 0..2 {
+            let window = self.reach.window(at, reach);
+            for group in 0..self.prepared.len().div_ceil(GROUP) {
+                let mut left = self.reach.meeting(group, window, self.prepared.len());
+                while left != 0 {
+                    let index = group * GROUP + left.trailing_zeros() as usize;
+                    left &= left - 1;
+                    let validity = validities.get(index)?;
+                    if !validity.meets(window) || validity.meets(asked) {
+                        continue;
+                    }
+                    let component = self.template.stored_at(index)?;
+                    let offset = component.offset(at);
+                    let Some(square) = validity.locate(offset) else {
+                        continue;
+                    };
+                    let prepared = self.prepared.get(index)?;
+                    let asked = self.ask(component, prepared, offset, Some(square));
+                    let Some((prediction, direction)) = asked else {
+                        continue;
+                    };
+                    let cost = self.cost(prediction.half_square, prepared);
+                    let first = best.as_ref().is_none_or(|(first, _)| index < *first);
+                    if !(cost < least || (cost == least && first)) {
+                        continue;
+                    }
+                    let place = self.place(component, &direction, prediction.predicted);
+                    if validity.meets(place) {
+                        least = cost;
+                        best = Some((index, prediction));
+                    }
+                }
+            }
+            let needed = self.reach.needed(best.as_ref().map(|_| least));
+            if needed <= reach {
+                break;
+            }
+            (asked, reach) = (window, needed);
+        }
+        best
+    }
+}
