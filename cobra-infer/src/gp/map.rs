@@ -51,6 +51,7 @@ impl<'a> Map<'a> {
 
     /// What the sum over the nodes is multiplied by.
     #[must_use]
+    #[inline(always)]
     pub fn scale(&self) -> f32 {
         let [scale, ..] = *self.header;
         f32::from_le_bytes(scale)
@@ -58,6 +59,7 @@ impl<'a> Map<'a> {
 
     /// s: nodes in a unit of the square, of which a side is 2.
     #[must_use]
+    #[inline(always)]
     pub fn spacing(&self) -> f32 {
         let [_, spacing, ..] = *self.header;
         f32::from_le_bytes(spacing)
@@ -65,6 +67,7 @@ impl<'a> Map<'a> {
 
     /// (x₀, y₀): the place of the middle of the square, in nodes.
     #[must_use]
+    #[inline(always)]
     pub fn origin(&self) -> [f32; 2] {
         let [_, _, x, y, _] = *self.header;
         [f32::from_le_bytes(x), f32::from_le_bytes(y)]
@@ -72,6 +75,7 @@ impl<'a> Map<'a> {
 
     /// Nodes in a row.
     #[must_use]
+    #[inline(always)]
     pub fn columns(&self) -> u8 {
         let [.., [columns, ..]] = *self.header;
         columns
@@ -79,6 +83,7 @@ impl<'a> Map<'a> {
 
     /// Rows of nodes.
     #[must_use]
+    #[inline(always)]
     pub fn rows(&self) -> u8 {
         let [.., [_, rows, ..]] = *self.header;
         rows

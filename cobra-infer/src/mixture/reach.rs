@@ -28,6 +28,8 @@ pub(super) struct Reach {
     grid: BoxGrid,
     /// How far the first look reaches; infinite where all are asked at once.
     pub(super) first: f32,
+    /// With a cost of no more than this nobody beyond the first look can be more probable.
+    pub(super) enough: f32,
     largest_sigma: f32,
     least_cost: f32,
     /// The largest coordinate of a reference point, in magnitude.
@@ -41,6 +43,7 @@ impl Reach {
         Self {
             grid: BoxGrid::new(template.centre(), template.radius()),
             first: f32::INFINITY,
+            enough: f32::NEG_INFINITY,
             largest_sigma: 0.0,
             least_cost: f32::INFINITY,
             furthest: 0.0,
@@ -60,6 +63,7 @@ impl Reach {
     /// All components are taken in, and need not be asked all at once.
     pub(super) fn prune(&mut self, validities: &Validities<'_>) {
         self.first = FIRST * self.largest_sigma;
+        self.enough = self.least_cost + 0.5 * FIRST * FIRST;
         self.slabs.take(validities);
     }
 
@@ -94,13 +98,9 @@ impl Reach {
         Window::between(position, position)
     }
 
-    /// The largest residual that costs no more than `best`, the least cost so far.
-    #[inline(always)]
-    pub(super) fn needed(&self, best: Option<f32>) -> f32 {
-        let square = |cost: f32| 2.0 * (cost - self.least_cost);
-        best.map_or(f32::INFINITY, |cost| {
-            self.largest_sigma * square(cost).square_root()
-        })
+    /// The largest residual that costs no more than `cost`.
+    pub(super) fn needed(&self, cost: f32) -> f32 {
+        self.largest_sigma * (2.0 * (cost - self.least_cost)).square_root()
     }
 }
 

@@ -5,10 +5,11 @@
 
 use super::slabs::GROUP;
 use super::{Mixture, Prediction};
-use crate::template::{Validities, Window};
+use crate::template::Validities;
 
 impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
     /// The component of the least cost, the first of equals, and what it says.
+    // Out of line, a controller takes 40 instructions more for a point and 170 bytes of stack less.
     #[inline]
     pub(super) fn most_probable(
         &self,
@@ -17,10 +18,10 @@ impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
     ) -> Option<(usize, Prediction)> {
         let mut best = None;
         let mut least = f32::INFINITY;
-        let mut asked = Window::NOTHING;
+        let mut asked = None;
         let mut reach = self.reach.first;
         // The second look reaches as far as the first one's answer asks for, and can only improve it.
-        for _ in 0..2 {
+        loop {
             let window = self.reach.window(at, reach);
             for group in 0..self.prepared.len().div_ceil(GROUP) {
                 let mut left = self.reach.meeting(group, window, self.prepared.len());
@@ -28,7 +29,7 @@ impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
                     let index = group * GROUP + left.trailing_zeros() as usize;
                     left &= left - 1;
                     let validity = validities.get(index)?;
-                    if !validity.meets(window) || validity.meets(asked) {
+                    if !validity.meets(window) || asked.is_some_and(|asked| validity.meets(asked)) {
                         continue;
                     }
                     let component = self.template.stored_at(index)?;
@@ -53,11 +54,11 @@ impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
                     }
                 }
             }
-            let needed = self.reach.needed(best.as_ref().map(|_| least));
-            if needed <= reach {
+            if asked.is_some() || least <= self.reach.enough {
                 break;
             }
-            (asked, reach) = (window, needed);
+            asked = Some(window);
+            reach = self.reach.needed(least);
         }
         best
     }

@@ -73,9 +73,9 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
         &ObjectSection {
             name: source.name.as_bytes(),
             unit: source.unit,
-            centre: source.centre,
-            radius: source.radius,
-            diameter: source.diameter,
+            centre: source.centre.map(f32::to_le_bytes),
+            radius: source.radius.to_le_bytes(),
+            diameter: source.diameter.to_le_bytes(),
         },
     )?;
     section(out, &mut used, Section::Model, &source.model)?;

@@ -65,9 +65,9 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
     let result = Ok(Template {
         name: object.name,
         unit: object.unit,
-        centre: object.centre,
-        radius: object.radius,
-        diameter: object.diameter,
+        centre: wire::numbers(&object.centre),
+        radius: f32::from_le_bytes(object.radius),
+        diameter: f32::from_le_bytes(object.diameter),
         model,
         records: components,
         precisions: match &precisions {

@@ -231,12 +231,6 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// Meets no box.
-    pub(crate) const NOTHING: Self = Self {
-        low: LANES,
-        high: 0,
-    };
-
     /// Its ends along each axis.
     #[inline]
     pub(crate) const fn axes(self) -> [(u8, u8); 3] {

@@ -221,9 +221,10 @@ pub(super) struct ObjectSection<'a> {
     /// A postcard string, which is a byte array that ought to be UTF-8.
     pub(super) name: &'a [u8],
     pub(super) unit: Unit,
-    pub(super) centre: [f32; 3],
-    pub(super) radius: f32,
-    pub(super) diameter: f32,
+    // Words, not `f32`: in what postcard makes of these a panic can be reached at `opt-level = "s"`.
+    pub(super) centre: [Word; 3],
+    pub(super) radius: Word,
+    pub(super) diameter: Word,
 }
 
 /// An array of records: the components' or the precisions'. `B` is `&[u8]` when reading and a
@@ -347,12 +348,17 @@ impl<'a> TermValues<'a> {
 /// C_k.
 #[inline]
 pub(super) fn centre(record: &Record) -> [f32; 3] {
-    let [x, y, z, ..] = *record;
-    // One by one: a `map` is a loop at `opt-level = "s"`.
+    let [x, y, z, ..] = record;
+    numbers(&[*x, *y, *z])
+}
+
+/// Three numbers, one by one: a `map` is a loop at `opt-level = "s"`.
+#[inline]
+pub(super) fn numbers([x, y, z]: &[Word; 3]) -> [f32; 3] {
     [
-        f32::from_le_bytes(x),
-        f32::from_le_bytes(y),
-        f32::from_le_bytes(z),
+        f32::from_le_bytes(*x),
+        f32::from_le_bytes(*y),
+        f32::from_le_bytes(*z),
     ]
 }
 
