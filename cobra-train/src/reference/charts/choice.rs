@@ -2,8 +2,11 @@
 //!
 //! Owns the choice by what they were found to explain, and whose the samples are then.
 
-use super::Chart;
 use super::candidate::Fitted;
+use super::region::Samples;
+use super::{Chart, RING};
+use crate::surface::NearestPoints;
+use crate::validity::sparsity;
 
 /// A chart is chosen only if it explains this share of the samples that others do not: each costs a
 /// controller time, however little it adds.
@@ -81,8 +84,8 @@ pub(super) fn needy(judged: &[Fitted], chosen: &[usize], samples: usize) -> Vec<
 
 /// The chosen charts, each sample with the first of its owners that explains it, else with the first
 /// of its owners.
-pub(super) fn disjoint(judged: &[Fitted], chosen: &[usize], samples: usize) -> Vec<Chart> {
-    let mut owner = vec![None; samples];
+pub(super) fn disjoint(judged: &[Fitted], chosen: &[usize], samples: &Samples) -> Vec<Chart> {
+    let mut owner = vec![None; samples.points.len()];
     for explained in [true, false] {
         for &index in chosen {
             let fitted = &judged[index];
@@ -98,8 +101,21 @@ pub(super) fn disjoint(judged: &[Fitted], chosen: &[usize], samples: usize) -> V
         .map(|&index| {
             let mut chart = judged[index].chart.clone();
             chart.own.retain(|&sample| owner[sample] == Some(index));
+            keep_around(&mut chart, samples);
             chart
         })
         .filter(|chart| !chart.own.is_empty())
         .collect()
+}
+
+/// Leaves a chart no more than its ring of what others own now: a compressed process has no terms to
+/// spare for it.
+fn keep_around(chart: &mut Chart, samples: &Samples) {
+    let position = |sample: usize| -> [f64; 3] { samples.points[sample].position.into() };
+    let own: Vec<[f64; 3]> = chart.own.iter().map(|&sample| position(sample)).collect();
+    let tree = NearestPoints::new(&own);
+    let ring = RING * sparsity(samples.points.len());
+    chart
+        .training
+        .retain(|&sample| tree.distance(&position(sample)) < ring);
 }

@@ -94,7 +94,7 @@ pub fn charts(points: &[SurfacePoint], most: usize, seed: u64) -> Result<Vec<Cha
         judged.extend(of_needy(&samples, &needy, added, seed)?);
         chosen = choice(&judged, points.len(), most);
     }
-    Ok(disjoint(&judged, &chosen, points.len()))
+    Ok(disjoint(&judged, &chosen, &samples))
 }
 
 /// What charts come to in rounds in which the whole surface is distributed among them anew.
