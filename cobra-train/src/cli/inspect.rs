@@ -8,7 +8,7 @@ use super::template_file;
 use super::terminal::Terminal;
 use cobra_infer::template::{Quality, RECORD_LENGTH, VERSION};
 use cobra_infer::{Assignment, Template};
-use cobra_train::export::features;
+use cobra_train::export::{counted, features};
 use serde::Serialize;
 
 pub(super) fn run(arguments: &InspectArguments, terminal: &Terminal) -> Result<(), Failure> {
@@ -24,7 +24,7 @@ pub(super) fn run(arguments: &InspectArguments, terminal: &Terminal) -> Result<(
     if json.replaces_the_table() {
         return Ok(());
     }
-    terminal.print(&text(&document))
+    terminal.print(&text(&document, counted(&template)))
 }
 
 #[derive(Serialize)]
@@ -46,10 +46,12 @@ struct Document {
     precisions: bool,
     /// Whether components speak only where they were verified.
     validity: bool,
-    /// How terms are stored: `exact`, 16 bytes each, or `compact`, 5 bytes each and 4 a component.
+    /// How terms are stored: `exact`, 16 bytes each, or `compact`, 5 bytes each and 4 a component; or
+    /// `map`, with nodes in their place, a byte each and 20 a component.
     encoding: &'static str,
     terms: usize,
     bytes: Bytes,
+    /// Of maps, nodes that are read.
     kernel_evaluations_per_point: Evaluations,
     /// What training measured on points that it did not learn from; `null` where the template does
     /// not say.
@@ -70,7 +72,7 @@ struct Bytes {
 struct QualityDocument {
     /// Percent of the points that some component explains.
     covered: f32,
-    /// How far compression moved the mean, in units of sigma-hat; `null` for exact terms.
+    /// How far compression or baking moved the mean, in units of sigma-hat; `null` for exact terms.
     deviation: Option<Deviation>,
 }
 
@@ -106,7 +108,13 @@ impl Document {
         let validity = template.validity_len();
         let cost = template.cost();
         let quality = template.quality();
-        let compact = template.has_compact_terms();
+        let encoding = if template.has_maps() {
+            "map"
+        } else if template.has_compact_terms() {
+            "compact"
+        } else {
+            "exact"
+        };
         let mut unexplained = quality.iter().flat_map(Quality::unexplained);
         Self {
             schema: 2,
@@ -122,7 +130,7 @@ impl Document {
             features: features(template),
             precisions: template.has_precisions(),
             validity: template.has_validity(),
-            encoding: if compact { "compact" } else { "exact" },
+            encoding,
             terms: template.term_count(),
             bytes: Bytes {
                 total,
@@ -137,7 +145,7 @@ impl Document {
             },
             quality: quality.map(|quality| QualityDocument {
                 covered: 100.0 * quality.covered,
-                deviation: compact.then_some(Deviation {
+                deviation: (encoding != "exact").then_some(Deviation {
                     max: quality.deviation_max,
                     rms: quality.deviation_rms,
                 }),
@@ -158,7 +166,7 @@ impl Document {
     }
 }
 
-fn text(document: &Document) -> String {
+fn text(document: &Document, counted: &str) -> String {
     let unit = document.unit;
     let bytes = &document.bytes;
     let evaluations = &document.kernel_evaluations_per_point;
@@ -182,6 +190,11 @@ fn text(document: &Document) -> String {
             row
         })
         .collect();
+    let terms = if document.encoding == "map" {
+        "nodes"
+    } else {
+        "terms"
+    };
     let (x_header, sigma_hat_header) = (format!("x ({unit})"), format!("sigma-hat ({unit})"));
     let mut header = vec![
         "component",
@@ -189,7 +202,7 @@ fn text(document: &Document) -> String {
         "y",
         "z",
         &sigma_hat_header,
-        "terms",
+        terms,
         "length scale",
     ];
     if document.quality.is_some() {
@@ -203,16 +216,20 @@ fn text(document: &Document) -> String {
          kernel      {}, {} metric\n\
          features    {} of cobra-infer, on the controller\n\
          components  {}, {}; they speak {}\n\
-         terms       {}, {}\n\
+         {terms}       {}, {}\n\
          quality     {}\n\
-         size        {} bytes: {} terms, {} component records, {} validity, {} the rest\n\
-         cost        kernel evaluations a point: at most {} (nearest), {} (max, soft)\n\n{}",
+         size        {} bytes: {} {terms}, {} component records, {} validity, {} the rest\n\
+         cost        {counted} a point: at most {} (nearest), {} (max, soft)\n\n{}",
         document.name,
         document.radius,
         document.diameter,
         document.kernel,
         document.metric,
-        document.features.join(" and "),
+        if document.features.is_empty() {
+            "none".to_owned()
+        } else {
+            document.features.join(" and ")
+        },
         document.components.len(),
         if document.precisions {
             "with precisions: near and far by each one's own Q"

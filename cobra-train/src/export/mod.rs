@@ -14,17 +14,32 @@ pub use rust::rust_source;
 use cobra_infer::{Assignment, Template};
 use std::fmt::Write;
 
-/// The features of `cobra-infer` that a controller needs to read a template.
+/// The features of `cobra-infer` that a controller needs to read a template: those of its kernel and
+/// metric, which maps do without.
 #[must_use]
 pub fn features(template: &Template<'_>) -> Vec<&'static str> {
+    if template.has_maps() {
+        return Vec::new();
+    }
     std::iter::once(template.kernel().feature())
         .chain(template.metric().feature())
         .collect()
 }
 
+/// What [`Template::cost`] counts.
+#[must_use]
+pub fn counted(template: &Template<'_>) -> &'static str {
+    if template.has_maps() {
+        "nodes read"
+    } else {
+        "kernel evaluations"
+    }
+}
+
 /// What whoever opens the file wants to know, a fact a line; `quote` stands around names.
 fn facts(template: &Template<'_>, bytes: usize, quote: &str) -> Vec<String> {
     let cost = template.cost();
+    let counted = counted(template);
     let features: Vec<String> = features(template)
         .iter()
         .map(|feature| format!("{quote}{feature}{quote}"))
@@ -40,11 +55,18 @@ fn facts(template: &Template<'_>, bytes: usize, quote: &str) -> Vec<String> {
             template.metric().name()
         ),
         format!(
-            "kernel evaluations a point: at most {} (nearest), {} (maximum, soft)",
+            "{counted} a point: at most {} (nearest), {} (maximum, soft)",
             cost.of(Assignment::Nearest),
             cost.of(Assignment::Maximum)
         ),
-        format!("features of cobra-infer: {}", features.join(" and ")),
+        format!(
+            "features of cobra-infer: {}",
+            if features.is_empty() {
+                "none".to_owned()
+            } else {
+                features.join(" and ")
+            }
+        ),
     ]
 }
 
