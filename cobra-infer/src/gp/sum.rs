@@ -187,24 +187,41 @@ fn half<const LAST: bool, N>(round: &[N; LANES]) -> [&N; 4] {
     if LAST { [e, f, g, h] } else { [a, b, c, d] }
 }
 
-/// For controllers, of compact terms: the accumulators stay in memory, and each term goes to its own.
-/// Four terms at a time take more registers than there are once numbers are converted, so that a term
-/// is no faster and the code four times as long.
+/// For controllers, of compact terms: each accumulator goes over its terms by itself, and stays in a
+/// register. Four terms at a time take more registers than there are once numbers are converted, so that
+/// a term is no faster and the code four times as long.
 #[inline(always)]
 fn one_by_one<K: Covariance<f32>, C: Number, W: Number>(
     kernel: &K,
     terms: Arrays<'_, C, W>,
     query: [f32; 3],
 ) -> [f32; LANES] {
-    let mut lanes = [0.0; LANES];
     let [xs, ys, zs] = terms.coordinates;
-    let terms = xs.iter().zip(ys).zip(zs).zip(terms.weights);
-    for (index, (((x, y), z), w)) in terms.enumerate() {
-        if let Some(lane) = lanes.get_mut(index % LANES) {
-            *lane += term(kernel, query, [x, y, z], w);
+    let (xs, x_rest) = xs.as_chunks();
+    let (ys, y_rest) = ys.as_chunks();
+    let (zs, z_rest) = zs.as_chunks();
+    let (ws, w_rest) = terms.weights.as_chunks();
+    let mut lanes = [0.0; LANES];
+    for (index, lane) in lanes.iter_mut().enumerate() {
+        let mut sum = 0.0;
+        for (((x, y), z), w) in xs.iter().zip(ys).zip(zs).zip(ws) {
+            let (x, y, z, w) = (of(x, index), of(y, index), of(z, index), of(w, index));
+            sum += term(kernel, query, [&x, &y, &z], &w);
         }
+        *lane = sum;
+    }
+    let rest = x_rest.iter().zip(y_rest).zip(z_rest).zip(w_rest);
+    for (lane, (((x, y), z), w)) in lanes.iter_mut().zip(rest) {
+        *lane += term(kernel, query, [x, y, z], w);
     }
     lanes
+}
+
+/// The remainder is the compiler's: it then sees that there is such a number.
+#[inline(always)]
+fn of<N: Copy>(round: &[N; LANES], index: usize) -> N {
+    let [first, ..] = *round;
+    round.get(index % LANES).copied().unwrap_or(first)
 }
 
 /// Written out: a loop over them is unrolled at `opt-level = 3` alone.
