@@ -99,6 +99,8 @@ def ratios(ours, scoring, learned):
         "scoring: authors' pipeline, mean alone / cobra": scoring["mean_alone_seconds"] / score,
         "scoring: distance to the mesh / cobra": ours["mesh_distance_seconds"] / score,
         "scoring: cobra / nearest of the training points": score / ours["nearest_point_seconds"],
+        "scoring: cobra's map / nearest of the training points": ours["map_scoring_seconds"]
+        / ours["nearest_point_seconds"],
     }
 
 

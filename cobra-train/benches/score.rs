@@ -14,7 +14,9 @@ use cobra_train::progress::Silent;
 use cobra_train::random::{Purpose, stream};
 use cobra_train::reference::Cluster;
 use cobra_train::surface::{BoundingSphere, Geometry, Mesh, RayCaster};
-use cobra_train::train::{LARGEST_TEMPLATE, ReferencePoints, TrainOptions, train};
+use cobra_train::train::{
+    LARGEST_TEMPLATE, MAP_BUDGET, MeanForm, ReferencePoints, TrainOptions, train,
+};
 use criterion::Criterion;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
@@ -62,25 +64,35 @@ fn measure_peers(
 ) {
     let sphere = object.mesh.bounding_sphere();
     let geometry = Geometry::from(object.mesh.clone());
-    let trained =
-        train(&geometry, &size.default_options(), &Silent).expect("both objects can be trained");
-    let template = Template::from_bytes(&trained.bytes).expect("what was trained can be read");
-    let settings = Settings {
-        delta: (ERROR * sphere.radius) as f32,
-        ..Settings::for_template(&template, 1.0)
+    let baked = TrainOptions {
+        mean: MeanForm::Map,
+        budget: Some(MAP_BUDGET),
+        ..size.default_options()
     };
+    let forms = [
+        ("cobra-infer", size.default_options()),
+        ("cobra-infer, map", baked),
+    ];
     let count = size.points / POINTS_PER_CORRESPONDENCE;
     let points = evaluation_points(&geometry, count, 0).expect("both objects show their surface");
     let single: Vec<Point3<f32>> = points.iter().map(|point| point.cast()).collect();
 
     let mut group = criterion.benchmark_group(format!("score/{}", object.name));
     let mut table = Table::new(&mut group, 50);
-    table.bench("cobra-infer", || {
-        let mixture = Mixture::<LARGEST_TEMPLATE>::new(&template, &settings)
-            .expect("the host has room for every template");
-        let found = single.iter().filter_map(|point| mixture.evaluate(point));
-        found.map(|found| found.likelihood).sum::<f32>()
-    });
+    for (name, options) in forms {
+        let trained = train(&geometry, &options, &Silent).expect("both objects can be trained");
+        let template = Template::from_bytes(&trained.bytes).expect("what was trained can be read");
+        let settings = Settings {
+            delta: (ERROR * sphere.radius) as f32,
+            ..Settings::for_template(&template, 1.0)
+        };
+        table.bench(name, || {
+            let mixture = Mixture::<LARGEST_TEMPLATE>::new(&template, &settings)
+                .expect("the host has room for every template");
+            let found = single.iter().filter_map(|point| mixture.evaluate(point));
+            found.map(|found| found.likelihood).sum::<f32>()
+        });
+    }
 
     let cloud: Vec<[f32; 3]> = training
         .iter()

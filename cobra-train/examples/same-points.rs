@@ -1,16 +1,19 @@
-//! Writes the points that a template of a mesh is trained and tested on, for other programs to train
-//! and score on the same, and measures training and scoring them here: `benches/peers/run`.
+//! Writes points of a mesh for other programs to train and score on, and measures training a template
+//! of the same mesh on as many points and scoring the same ones here: `benches/peers/run`.
+//!
+//! The template is the default one, and its map beside it; its charts choose as many training points
+//! from four times as many, so that these are not one by one those that are written.
 //!
 //! `cargo run --release -p cobra-train --example same-points -- MESH FOLDER`: `training.csv` and
 //! `test.csv` in the unit sphere, `x,y,z` a line; the measurements as JSON on standard output.
 
-use cobra_infer::{Mixture, Settings, Template};
+use cobra_infer::{Mixture, ScoreError, Settings, Template};
 use cobra_train::evaluate::{Evaluation, evaluate, evaluation_points};
 use cobra_train::output::write_whole;
 use cobra_train::progress::Silent;
 use cobra_train::random::Purpose;
 use cobra_train::surface::{Geometry, RayCaster, read_mesh, sample_visible};
-use cobra_train::train::{LARGEST_TEMPLATE, TrainOptions, train};
+use cobra_train::train::{LARGEST_TEMPLATE, MAP_BUDGET, MeanForm, TrainOptions, train};
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use nalgebra::Point3;
 use serde_json::json;
@@ -39,8 +42,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("expected a mesh".into());
     };
     let caster = RayCaster::new(surface);
-    // Clusters: others than charts are not trained on all points that are drawn.
-    let options = TrainOptions::clustered("same points", 16);
+    let options = TrainOptions::new("same points");
+    let baked = TrainOptions {
+        mean: MeanForm::Map,
+        budget: Some(MAP_BUDGET),
+        ..options.clone()
+    };
 
     let drawn = options.points + options.test_points;
     let training: Vec<Point3<f64>> =
@@ -56,16 +63,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let trained = train(&object, &options, &Silent)?;
     let training_seconds = median(TRAININGS, || train(&object, &options, &Silent));
 
+    let map = train(&object, &baked, &Silent)?;
+
     let template = Template::from_bytes(&trained.bytes)?;
-    let settings = Settings::with_delta(template.radius());
+    let map = Template::from_bytes(&map.bytes)?;
     let queries = &test[..QUERIES];
     let single: Vec<Point3<f32>> = queries.iter().map(|point| point.cast()).collect();
-    Mixture::<LARGEST_TEMPLATE>::new(&template, &settings)?;
-    let scoring_seconds = median(SCORINGS, || {
-        let mixture = Mixture::<LARGEST_TEMPLATE>::new(&template, &settings).ok()?;
-        let found = single.iter().filter_map(|point| mixture.evaluate(point));
-        Some(found.map(|found| found.likelihood).sum::<f32>())
-    });
+    let scoring_seconds = scoring(&template, &single)?;
+    let map_scoring_seconds = scoring(&map, &single)?;
     let cloud: Vec<[f32; 3]> = training.iter().map(|p| p.cast::<f32>().into()).collect();
     let tree = ImmutableKdTree::<f32, 3>::new_from_slice(&cloud)
         .map_err(|error| format!("k-d tree: {error:?}"))?;
@@ -85,7 +90,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let Evaluation {
         shape, residual, ..
-    } = evaluate(&template, settings.assignment, &test)?;
+    } = evaluate(&template, settings(&template).assignment, &test)?;
     let document = json!({
         "training_points": training.len(),
         "queries": queries.len(),
@@ -94,6 +99,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "training_threads": rayon::current_num_threads(),
         "training_seconds": training_seconds,
         "scoring_seconds": scoring_seconds,
+        "map_scoring_seconds": map_scoring_seconds,
         "nearest_point_seconds": nearest_point_seconds,
         "mesh_distance_seconds": mesh_seconds,
         "f_score": shape.f_score,
@@ -102,6 +108,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     });
     println!("{document:#}");
     Ok(())
+}
+
+fn settings(template: &Template<'_>) -> Settings {
+    Settings::for_template(template, 0.01)
+}
+
+/// The median time that the likelihoods of all points take, on one core.
+fn scoring(template: &Template<'_>, points: &[Point3<f32>]) -> Result<f64, ScoreError> {
+    let mixture = Mixture::<LARGEST_TEMPLATE>::new(template, &settings(template))?;
+    Ok(median(SCORINGS, || {
+        let found = points.iter().filter_map(|point| mixture.evaluate(point));
+        found.map(|found| found.likelihood).sum::<f32>()
+    }))
 }
 
 fn table(points: &[Point3<f64>]) -> String {
