@@ -51,10 +51,10 @@ emulate() {
         -semihosting-config enable=on,target=native -kernel "$program"
 }
 
-# Flash of 256 KB does not hold all vectors at once.
+# Flash of 256 or 512 KB does not hold all vectors at once.
 sets_at_once() {
     case $1 in
-    microbit | lm3s6965evb) echo "k-means em tiny" ;;
+    microbit | lm3s6965evb | mps3-an547) agreement_sets ;;
     *) echo "all" ;;
     esac
 }
