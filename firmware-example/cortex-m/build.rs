@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let out = env::var("OUT_DIR")?;
     fs::write(Path::new(&out).join("memory.x"), layout)?;
     println!("cargo::rustc-env=COBRA_BOARD={board}");
-    let small = ["microbit", "lm3s6965evb"].contains(&board.as_str());
+    let small = ["microbit", "lm3s6965evb", "mps3-an547"].contains(&board.as_str());
     let set = env::var("COBRA_SET");
     let set = set
         .as_deref()

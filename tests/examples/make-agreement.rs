@@ -5,11 +5,14 @@
 //! be created empty, because the library includes them.
 
 use cobra_agreement::vectors;
+use cobra_infer::template::{Component, HEADER_LENGTH};
+use cobra_infer::validity::{BoxGrid, Cell, direction};
 use cobra_infer::{Exponent, Kernel, Model, Template, UnitDirection, tolerance};
+use cobra_tests::directions::known_directions;
 use cobra_tests::points_file::points_file;
 use cobra_train::demo::mechanical_part;
 use cobra_train::progress::Silent;
-use cobra_train::train::{ReferencePoints, TrainOptions, train};
+use cobra_train::train::{MeanForm, ReferencePoints, TrainOptions, train};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -32,28 +35,7 @@ const CORRESPONDENCES: usize = 2000;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/agreement");
-    let trainings: [(&str, Exponent, ReferencePoints, usize); 3] = [
-        (
-            "k-means",
-            Exponent::Half,
-            ReferencePoints::KMeans { components: 4 },
-            240,
-        ),
-        (
-            "em",
-            Exponent::One,
-            ReferencePoints::Em { components: 3 },
-            200,
-        ),
-        (
-            "tiny",
-            Exponent::One,
-            // Where a pixel comes back to it exactly.
-            ReferencePoints::Given(vec![[2.0, -4.0, 8.0].into()]),
-            20,
-        ),
-    ];
-    for (index, (name, exponent, reference_points, points)) in trainings.into_iter().enumerate() {
+    for (index, (name, options)) in trainings().into_iter().enumerate() {
         let file = |ending: &str| folder.join(format!("{name}.{ending}"));
         let write_new = |ending: &str, make: &dyn Fn() -> Result<Vec<u8>, Box<dyn Error>>| {
             let path = file(ending);
@@ -66,12 +48,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             Ok::<_, Box<dyn Error>>(bytes)
         };
         let template = write_new("cobra", &|| {
-            let mut options = TrainOptions::clustered("bracket", 16);
-            options.points = points;
-            options.test_points = 2000;
-            options.reference_points = reference_points.clone();
-            options.fit.model = Model::chord(Kernel::RationalQuadratic(exponent));
-            Ok(train(&mechanical_part().into(), &options, &Silent)?.bytes)
+            let bytes = train(&mechanical_part().into(), &options, &Silent)?.bytes;
+            narrowed(bytes)
         })?;
         let points = write_new("points", &|| {
             let template = Template::from_bytes(&template)?;
@@ -90,18 +68,93 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// The sets by name, and how their templates are trained.
+fn trainings() -> [(&'static str, TrainOptions); 5] {
+    let em = ReferencePoints::Em { components: 3 };
+    // Where a pixel comes back to it exactly.
+    let given = ReferencePoints::Given(vec![[2.0, -4.0, 8.0].into()]);
+    let k_means = ReferencePoints::KMeans { components: 4 };
+    [
+        ("k-means", everywhere(Exponent::Half, k_means, 240)),
+        ("em", everywhere(Exponent::One, em, 200)),
+        ("tiny", everywhere(Exponent::One, given, 20)),
+        ("charts", where_verified(MeanForm::Process, 4096)),
+        ("map", where_verified(MeanForm::Map, 8192)),
+    ]
+}
+
+/// Components that speak everywhere, of terms in `f32`.
+fn everywhere(
+    exponent: Exponent,
+    reference_points: ReferencePoints,
+    points: usize,
+) -> TrainOptions {
+    let mut options = TrainOptions::clustered("bracket", 16);
+    options.points = points;
+    options.test_points = 2000;
+    options.reference_points = reference_points;
+    options.fit.model = Model::chord(Kernel::RationalQuadratic(exponent));
+    options
+}
+
+/// Charts with validity, and compact terms or maps: the defaults, but of few bytes, so that a set fits
+/// into the smallest board's flash.
+fn where_verified(mean: MeanForm, budget: usize) -> TrainOptions {
+    TrainOptions {
+        reference_points: ReferencePoints::Auto {
+            most: vectors::COMPONENTS,
+        },
+        mean,
+        budget: Some(budget),
+        ..TrainOptions::new("bracket")
+    }
+}
+
+/// The template with every other component's box narrower along each axis: a trained box holds all
+/// that its component says, and this has some of it silenced.
+fn narrowed(mut bytes: Vec<u8>) -> Result<Vec<u8>, Box<dyn Error>> {
+    let boxes: Vec<([u8; 3], [u8; 3])> = Template::from_bytes(&bytes)?
+        .components()
+        .filter_map(|component| Some((component.validity?.low(), component.validity?.high())))
+        .step_by(2)
+        .collect();
+    for (low, high) in boxes {
+        let same = |record: &[u8]| record[..3] == low && record[4..] == high;
+        let place = bytes.windows(7).position(same).ok_or("no such box")?;
+        for axis in 0..3 {
+            let by = (high[axis] - low[axis]) / 8;
+            bytes[place + axis] += by;
+            bytes[place + 4 + axis] -= by;
+        }
+    }
+    let checksum = checksum(&bytes[HEADER_LENGTH..]);
+    bytes[12..HEADER_LENGTH].copy_from_slice(&checksum.to_le_bytes());
+    Ok(bytes)
+}
+
+/// The format's, CRC-32/ISO-HDLC.
+fn checksum(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0, |sum, byte| {
+        (0..8).fold(sum ^ u32::from(*byte), |sum, _| {
+            (sum >> 1) ^ (0xedb8_8320 & 0_u32.wrapping_sub(sum & 1))
+        })
+    })
+}
+
 /// Points on and off the predicted surface, mixed with everything awkward.
 fn correspondences(template: &Template<'_>, seed: u64) -> Vec<[f32; 6]> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let components: Vec<_> = template.components().collect();
     let mut all = awkward(template);
+    if template.has_validity() {
+        all.extend(at_edges(template));
+        all.extend(in_silence(template, &mut random));
+    }
+    let known: Vec<_> = components.iter().map(known_directions).collect();
     while all.len() < CORRESPONDENCES {
         let component = &components[all.len() % components.len()];
-        let terms = &component.terms;
-        let (direction, _) = terms
-            .iter()
-            .nth(random.random_range(0..terms.len()))
-            .expect("an index below the length");
+        let known = &known[all.len() % components.len()];
+        let direction = known[random.random_range(0..known.len())];
         let mut jitter = |size: f32| random.random_range(-size..=size);
         let [x, y, z] = direction.map(|c| c + jitter(0.05));
         let u = UnitDirection::new_normalize([x, y, z].into());
@@ -231,6 +284,78 @@ fn on_the_axis(template: &Template<'_>) -> Vec<[f32; 6]> {
         "no pixel comes back to a reference point"
     );
     found
+}
+
+/// What the component predicts in this direction.
+fn predicted(template: &Template<'_>, component: &Component<'_>, u: [f32; 3]) -> [f32; 3] {
+    let d = component.posterior_mean(template.model(), &UnitDirection::new_unchecked(u.into()));
+    let ([x, y, z], [a, b, c]) = (component.centre, u);
+    [x + d * a, y + d * b, z + d * c]
+}
+
+/// Where validity changes its mind: on the borders of cells beside which the component is silent, and
+/// where what it predicts lies closest to each side of its box, within and without.
+fn at_edges(template: &Template<'_>) -> Vec<[f32; 6]> {
+    let boxes = BoxGrid::new(template.centre(), template.radius());
+    let step = template.radius() / 64.0;
+    let mut all = Vec::new();
+    for component in template.components() {
+        let Some(valid) = component.validity else {
+            continue;
+        };
+        let at = |cell, place| {
+            let u = direction(valid.pole(), valid.side(), cell, place);
+            predicted(template, &component, u)
+        };
+        let borders = valid.cells().filter_map(|cell| {
+            let column = cell.column + 1;
+            let beside = Cell { column, ..cell };
+            let silent = column < valid.side() && !valid.contains(beside);
+            silent.then(|| at(cell, [1.0, 0.5]))
+        });
+        all.extend(borders.step_by(5).take(8).map(|point| seen(point, 1.0)));
+        let places = [0.0, 0.25, 0.5, 0.75, 1.0];
+        let points: Vec<[f32; 3]> = valid
+            .cells()
+            .flat_map(|cell| places.map(|a| places.map(|b| at(cell, [a, b]))))
+            .flatten()
+            .collect();
+        for axis in 0..3 {
+            let corner = template.centre()[axis] - template.radius();
+            let (low, high) = (valid.low()[axis], valid.high()[axis]);
+            for edge in [f32::from(low), f32::from(high) + 1.0] {
+                let edge = corner + edge * step;
+                let inside =
+                    |point: &&[f32; 3]| (low..=high).contains(&boxes.position(**point)[axis]);
+                let away = |a: &&[f32; 3], b: &&[f32; 3]| {
+                    let [a, b] = [a, b].map(|point| (point[axis] - edge).abs());
+                    a.total_cmp(&b)
+                };
+                let (within, without): (Vec<_>, Vec<_>) = points.iter().partition(inside);
+                let closest = [within, without].map(|of| of.into_iter().min_by(away));
+                all.extend(closest.into_iter().flatten().map(|point| seen(*point, 1.0)));
+            }
+        }
+    }
+    all
+}
+
+/// Places in the bounding sphere that no component has a valid direction to.
+fn in_silence(template: &Template<'_>, random: &mut ChaCha8Rng) -> Vec<[f32; 6]> {
+    let (centre, radius) = (template.centre(), template.radius());
+    let silent = |point: &[f32; 3]| {
+        template.components().all(|component| {
+            let [x, y, z] = component.centre;
+            let offset = [point[0] - x, point[1] - y, point[2] - z];
+            !component
+                .validity
+                .is_some_and(|valid| valid.contains_direction(offset))
+        })
+    };
+    let anywhere =
+        std::iter::repeat_with(|| centre.map(|c| c + radius * random.random_range(-1.0..=1.0)));
+    let places = anywhere.take(100_000).filter(silent).take(60);
+    places.map(|point| seen(point, 0.5)).collect()
 }
 
 /// The row whose pixel is where `point` is seen at the first pose.

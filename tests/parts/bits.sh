@@ -5,6 +5,14 @@
 # a bit. The host's tests compare the same without it.
 comparison="--quiet --package cobra-agreement --features golden --bin agreement --release --locked"
 
+# The names of the agreement vectors.
+agreement_sets() {
+    local file
+    for file in tests/golden/agreement/*.cobra; do
+        basename "$file" .cobra
+    done
+}
+
 # same_bits WHERE COMMAND...: one test.
 same_bits() {
     local name="the same bits $1"

@@ -194,7 +194,7 @@ part_c() {
     case $(uname -s) in
     Linux)
         c_check "the program of docs/C.md" c_page
-        for set in k-means em tiny; do
+        for set in $(agreement_sets); do
             c_check "$set: Rust" c_rust "$set"
             c_check "$set: C on this machine runs" c_host "$set"
             c_check "$set: C on this machine has the bits of Rust" \
@@ -217,7 +217,7 @@ part_c() {
     c_check "no symbol in it that a C library has" c_no_clash cobra
     c_check "nothing that it needs" c_needs_nothing cobra
     c_check "the header under arm-none-eabi-gcc" c_header arm-none-eabi-gcc
-    for set in k-means em tiny; do
+    for set in $(agreement_sets); do
         [ -s "$c_dir/$set.rust" ] || c_check "$set: Rust" c_rust "$set"
         c_check "$set: C on a Cortex-M4F runs" c_board cobra "$set"
         c_check "$set: C on a Cortex-M4F has the bits of Rust" \

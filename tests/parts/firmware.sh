@@ -1,4 +1,5 @@
-# Bare metal: what `cobra-infer` links, and what boards under QEMU compute with it.
+# Bare metal: what `cobra-infer` links, and what boards under QEMU compute with it. What templates of a
+# real object take there is in objects.sh.
 
 # Target, board, and the emulator that plays it. The order is README's.
 boards() {
@@ -51,10 +52,10 @@ emulate() {
         -semihosting-config enable=on,target=native -kernel "$program"
 }
 
-# Flash of 256 KB does not hold all vectors at once.
+# Flash of 256 or 512 KB does not hold all vectors at once.
 sets_at_once() {
     case $1 in
-    microbit | lm3s6965evb) echo "k-means em tiny" ;;
+    microbit | lm3s6965evb | mps3-an547) agreement_sets ;;
     *) echo "all" ;;
     esac
 }
@@ -174,8 +175,12 @@ part_firmware() {
     if need_bare_metal thumbv7em-none-eabihf; then
         firmware_check "the example on an async executor" runs_on_the_executor
     fi
+    if need_bare_metal "$objects_target"; then
+        measure_objects
+        firmware_check "encodings of a term on $objects_board" measure_encodings
+    fi
     if [ "$(wc -l <"$firmware_folder/rows")" -ne "$(boards | wc -l)" ]; then
-        echo "Not every board was measured: README's table is not compared."
+        echo "Not every board was measured: the tables of README and docs are not compared."
         return
     fi
     local rustc=rustc
@@ -183,7 +188,7 @@ part_firmware() {
         rustc=/usr/bin/rustc
     fi
     # shellcheck disable=SC2086 # empty must vanish
-    firmware_check "README's table of budgets" cargo run --quiet --locked --package cobra-firmware-budget \
+    firmware_check "the tables of README and docs/BENCHMARKS.md" cargo run --quiet --locked --package cobra-firmware-budget \
         -- "$firmware_folder" "$("$rustc" --version | cut -d' ' -f1,2)" \
         ${write_tables:+--write}
 }

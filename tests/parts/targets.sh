@@ -36,8 +36,11 @@ fn main() {
                 loaded += 1;
                 let component = template.components().next().expect("a component");
                 let u = UnitDirection::new_unchecked([0.6, 0.0, 0.8].into());
-                template.kernel().feature() == feature
-                    && template.metric().feature().is_none()
+                // A map asks for neither.
+                let contained = template.has_maps()
+                    || (template.kernel().feature() == feature
+                        && template.metric().feature().is_none());
+                contained
                     && component.posterior_mean(template.model(), &u).is_finite()
             }
             Err(TemplateError::KernelLeftOut { kernel }) => kernel.feature() != feature,

@@ -3,6 +3,9 @@
 use cobra_agreement::golden::GOLDEN;
 use cobra_agreement::vectors::{CASES, Points, Unreadable, compare, compare_telling};
 use cobra_agreement::{Outcome, SETS, Set, report};
+use cobra_infer::gp::direction_and_distance;
+use cobra_infer::template::Component;
+use cobra_infer::validity::BoxGrid;
 use cobra_infer::{Camera, Correspondence, Template, tolerance};
 
 #[test]
@@ -144,4 +147,78 @@ fn every_set_holds_what_is_awkward() {
             .any(|offset| offset.norm() > 1e6 * radius);
         assert!(far_away, "{}", set.name);
     }
+}
+
+/// What a component with validity has to say of a point.
+#[derive(Clone, Copy, PartialEq)]
+enum Says {
+    NotInThisDirection,
+    OutsideOfItsBox,
+    /// Whether at the edge of its box.
+    Something {
+        at_the_edge: bool,
+    },
+}
+
+fn says(template: &Template<'_>, component: &Component<'_>, point: [f32; 3]) -> Says {
+    let valid = component.validity.expect("validity");
+    let Some((u, _)) = direction_and_distance(point, component.centre, 0.0) else {
+        return Says::NotInThisDirection;
+    };
+    if !valid.contains_direction(u.into_inner().into()) {
+        return Says::NotInThisDirection;
+    }
+    let distance = component.posterior_mean(template.model(), &u);
+    let predicted = nalgebra::Vector3::from(component.centre) + u.into_inner() * distance;
+    let position = BoxGrid::new(template.centre(), template.radius()).position(predicted.into());
+    let sides = || position.into_iter().zip(valid.low()).zip(valid.high());
+    if sides().any(|((at, low), high)| at < low || at > high) {
+        Says::OutsideOfItsBox
+    } else {
+        let at_the_edge = sides().any(|((at, low), high)| at == low || at == high);
+        Says::Something { at_the_edge }
+    }
+}
+
+#[test]
+fn sets_with_validity_hold_points_that_components_speak_of_and_others() {
+    let (mut compact, mut maps) = (0, 0);
+    for set in SETS {
+        let template = Template::from_bytes(set.template).unwrap();
+        if !template.has_validity() {
+            continue;
+        }
+        compact += usize::from(template.has_compact_terms());
+        maps += usize::from(template.has_maps());
+        let points = Points::read(set.points).unwrap();
+        let (camera, pose) = (points.camera().unwrap(), points.pose(0, false).unwrap());
+        let said: Vec<Vec<Says>> = points
+            .correspondences()
+            .filter(Correspondence::is_finite)
+            .map(|c| camera.back_project(&pose, &c.pixel, &c.point).point)
+            .map(|point| {
+                let all = template.components();
+                all.map(|c| says(&template, &c, point.coords.into()))
+                    .collect()
+            })
+            .collect();
+        let count =
+            |holds: &dyn Fn(&Says) -> bool| said.iter().flatten().filter(|s| holds(s)).count();
+        let silent = |said: &&Vec<Says>| said.iter().all(|s| *s == Says::NotInThisDirection);
+        let spoken_of = said.iter().filter(|said| !silent(said)).count();
+        assert!(spoken_of > 1000, "{}: {spoken_of}", set.name);
+        assert!(said.len() - spoken_of > 60, "{}", set.name);
+        let outside = count(&|s| *s == Says::OutsideOfItsBox);
+        assert!(outside > 20, "{}: {outside}", set.name);
+        let edge = count(&|s| *s == Says::Something { at_the_edge: true });
+        assert!(edge > 20, "{}: {edge}", set.name);
+        // The most probable of several is to be found.
+        let contested = said.iter().filter(|said| {
+            let speaks = |s: &&Says| matches!(s, Says::Something { .. });
+            said.iter().filter(speaks).count() > 1
+        });
+        let contested = contested.count();
+        assert!(contested > 50, "{}: {contested}", set.name);
+    }
+    assert!(compact > 0 && maps > 0);
 }

@@ -18,7 +18,7 @@ fn recorded_templates_score_the_recorded_bits() {
 }
 
 #[test]
-fn every_kernel_metric_assignment_likelihood_and_threshold_is_recorded() {
+fn every_kernel_metric_kind_assignment_likelihood_and_threshold_is_recorded() {
     let templates: Vec<Template<'_>> = GOLDEN
         .iter()
         .map(|golden| Template::from_bytes(golden.template).unwrap())
@@ -29,7 +29,14 @@ fn every_kernel_metric_assignment_likelihood_and_threshold_is_recorded() {
     for metric in Metric::ALL {
         assert!(templates.iter().any(|template| template.metric() == metric));
     }
-    assert!(templates.iter().any(Template::has_precisions));
+    for kind in [
+        Template::has_precisions,
+        Template::has_validity,
+        Template::has_compact_terms,
+        Template::has_maps,
+    ] {
+        assert!(templates.iter().any(kind));
+    }
     for golden in GOLDEN {
         let own = GOLDEN.iter().filter(|o| o.template == golden.template);
         let lines = own.flat_map(|golden| golden.vectors.lines());

@@ -6,6 +6,7 @@
 //! | [`footprint`] | the least that a controller links: load and score, nothing printed |
 //! | [`agreement`] | the recorded vectors, scored here and compared bit by bit |
 //! | [`budget`] | stack and instructions of load and score |
+//! | [`encodings`] | bytes and instructions of a term by how it is written |
 //! | `object` | a template of one's own: instructions a point, and the host's bits; with `semihosting` |
 //! | [`stack`] | how deep a call reaches into the stack |
 //! | `console` | standard output through a debugger, with the feature `semihosting` |
@@ -15,6 +16,7 @@ pub mod agreement;
 pub mod budget;
 #[cfg(feature = "semihosting")]
 pub mod console;
+pub mod encodings;
 pub mod footprint;
 #[cfg(feature = "semihosting")]
 pub mod object;

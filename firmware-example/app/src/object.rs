@@ -5,7 +5,7 @@
 
 use crate::{Board, Failed};
 use cobra_agreement::object::{NOISES, score};
-use cobra_agreement::vectors::{Points, Unreadable};
+use cobra_agreement::vectors::{Points, REPORT_WORDS, Unreadable};
 use cobra_infer::Template;
 use core::ffi::CStr;
 use core::fmt::{self, Write};
@@ -38,10 +38,10 @@ impl Room {
 /// # Errors
 /// [`Failed`] when a file does not read, when a bit differs, or when `out` fails.
 pub fn run(board: &mut impl Board, out: &mut impl Write, room: &mut Room) -> Result<(), Failed> {
-    let template = read(c"object.cobra", &mut room.template, out)?;
+    let bytes = read(c"object.cobra", &mut room.template, out)?;
     let points = read(c"object.points", &mut room.points, out)?;
     let expected = read(c"object.expected", &mut room.expected, out)?;
-    let template = match Template::from_bytes(template) {
+    let template = match Template::from_bytes(bytes) {
         Ok(template) => template,
         Err(error) => return failed(out, format_args!("object.cobra: {error}")),
     };
@@ -50,11 +50,15 @@ pub fn run(board: &mut impl Board, out: &mut impl Write, room: &mut Room) -> Res
     };
     let all = points.correspondences().len();
     let mut recorded = expected.as_chunks().0.iter();
-    let mut mismatched = recorded.len().abs_diff(NOISES.len() * (all + 7));
+    let missing = recorded
+        .len()
+        .abs_diff(NOISES.len() * (all + REPORT_WORDS.len()));
+    let mut mismatched = missing as u32 * u32::BITS;
     for noise in NOISES {
         let mut compare = |word: u32| {
-            let same = recorded.next().is_some_and(|bytes| u32::from_le_bytes(*bytes) == word);
-            mismatched += usize::from(!same);
+            if let Some(bytes) = recorded.next() {
+                mismatched += (u32::from_le_bytes(*bytes) ^ word).count_ones();
+            }
         };
         if let Err(error) = score(&template, &points, noise, all, &mut compare) {
             return refused(out, error);
@@ -62,15 +66,24 @@ pub fn run(board: &mut impl Board, out: &mut impl Write, room: &mut Room) -> Res
         let mut counted = |count: usize| {
             board.feed_watchdog();
             let start = board.instructions();
-            let scored = score(black_box(&template), &points, noise, black_box(count), |_| ());
+            let scored = score(
+                black_box(&template),
+                &points,
+                noise,
+                black_box(count),
+                |_| (),
+            );
             let instructions = board.instructions().wrapping_sub(start);
             scored.map(|()| instructions)
         };
         match (counted(0), counted(all)) {
             (Ok(without), Ok(with)) => writeln!(
                 out,
-                "object noise={noise} points={all} instructions={} mismatched_words={mismatched}",
+                "object noise={noise} points={all} instructions={} mismatched_bits={mismatched} \
+                 bytes={} components={}",
                 with.wrapping_sub(without),
+                bytes.len(),
+                template.component_count(),
             )?,
             (Err(error), _) | (_, Err(error)) => return refused(out, error),
         }

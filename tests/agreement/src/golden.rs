@@ -48,9 +48,9 @@ macro_rules! golden {
     };
 }
 
-/// The golden templates of every kernel.
+/// The golden templates of every kernel, and of every way to write components.
 #[cfg(feature = "golden")]
-pub const GOLDEN: [Golden; 17] = [
+pub const GOLDEN: [Golden; 19] = [
     golden!("exponent-one", "exponent-one", 32),
     golden!("exponent-half", "exponent-half", 32),
     golden!("exponent-free", "exponent-free", 32),
@@ -72,6 +72,8 @@ pub const GOLDEN: [Golden; 17] = [
     ),
     golden!("angles-periodic", "angles-periodic", 24),
     golden!("precisions", "precisions", 24),
+    golden!("validity-compact", "validity-compact", 24),
+    golden!("map", "map", 24),
 ];
 
 /// Where a replay went wrong.

@@ -14,7 +14,7 @@ use cobra_infer::{
 use core::fmt;
 
 /// The most components that a template of the vectors has.
-pub const COMPONENTS: usize = 4;
+pub const COMPONENTS: usize = 8;
 
 /// A template with its correspondences and what they score.
 #[derive(Clone, Copy, Debug)]
@@ -41,8 +41,15 @@ macro_rules! set {
 }
 
 /// Reference points by k-means under exponent ½; by expectation maximisation, with precisions,
-/// under exponent 1; and a template of one component and 20 terms.
-pub const SETS: [Set; 3] = [set!("k-means"), set!("em"), set!("tiny")];
+/// under exponent 1; a template of one component and 20 terms; charts with validity, of compact terms
+/// under exponent ½, and of maps.
+pub const SETS: [Set; 5] = [
+    set!("k-means"),
+    set!("em"),
+    set!("tiny"),
+    set!("charts"),
+    set!("map"),
+];
 
 /// The set of that name, or all of them by the name `all`. For boards whose flash does not hold all
 /// at once: as a constant, it links only what it names.
@@ -56,7 +63,9 @@ pub const fn sets_named(name: &str) -> &'static [Set] {
         b"k-means" => &[SETS[0]],
         b"em" => &[SETS[1]],
         b"tiny" => &[SETS[2]],
-        _ => panic!("a set is one of all, k-means, em and tiny"),
+        b"charts" => &[SETS[3]],
+        b"map" => &[SETS[4]],
+        _ => panic!("a set is one of all, k-means, em, tiny, charts and map"),
     }
 }
 

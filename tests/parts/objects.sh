@@ -1,0 +1,70 @@
+# Templates of a real object on the board with a floating-point unit: bits, and instructions a point.
+
+objects_target=thumbv7em-none-eabihf
+objects_board=mps2-an386
+
+# By the names of tests/firmware-budget, and how `cobra train` makes them.
+object_trainings() {
+    cat <<'LIST'
+terms
+few-terms --budget 8704
+maps --mean map
+few-maps --mean map --max-components 11
+LIST
+}
+
+# As the tests do: COBRA_SHARED, or beside the workspace. Absolute, because programs that read files
+# run in the folder that these lie in.
+find_object() {
+    object_mesh=${COBRA_SHARED:-../shared}/data/screwdriver/model.ply
+    [ -f "$object_mesh" ] || return
+    object_mesh=$(cd "$(dirname "$object_mesh")" && pwd)/model.ply
+}
+
+cobra_command() {
+    cargo run --quiet --release --locked --package cobra-train --bin cobra -- "$@"
+}
+
+# measure_object NAME [ARGUMENT...]: one test, the host's bits on the board.
+measure_object() {
+    local name=$1 folder=$firmware_folder/$1
+    shift
+    mkdir -p "$folder"
+    cobra_command train "$object_mesh" -o "$folder/trained.cobra" --quiet "$@" >/dev/null &&
+        cobra_command eval "$folder/trained.cobra" --mesh "$object_mesh" --quiet \
+            --json "$firmware_folder/$name.json" >/dev/null &&
+        cargo run --quiet --locked --package cobra-tests --example object-points -- \
+            "$folder/trained.cobra" "$object_mesh" "$folder" &&
+        firmware_program "$objects_target" "$objects_board" object || return
+    if ! (cd "$folder" && emulate qemu-system-arm "$objects_board" "$firmware") \
+        >"$firmware_folder/$name.object"; then
+        cat "$firmware_folder/$name.object" >&2
+        return 1
+    fi
+    cat "$firmware_folder/$name.object"
+    echo "$name${*:+ $*}" >>"$firmware_folder/objects"
+}
+
+measure_objects() {
+    local name arguments
+    if ! find_object; then
+        skip "a real object's templates on $objects_board: $object_mesh is not there"
+        return
+    fi
+    while read -r name arguments; do
+        # shellcheck disable=SC2086 # a list of words
+        firmware_check "the screwdriver's template \`$name\` on $objects_board" \
+            measure_object "$name" $arguments
+    done < <(object_trainings)
+}
+
+# The sums agree to rounding, which the program checks.
+measure_encodings() {
+    local log=$firmware_folder/encodings
+    firmware_program "$objects_target" "$objects_board" encodings || return
+    if ! emulate qemu-system-arm "$objects_board" "$firmware" >"$log"; then
+        cat "$log" >&2
+        return 1
+    fi
+    cat "$log"
+}
