@@ -6,7 +6,7 @@
 //! keeps all of four terms in registers: with eight at a time it loads more words ahead than it has
 //! registers for, and a term costs two instructions more. Hence there each half of the accumulators goes
 //! over the terms by itself, and the four are written out: a loop over them is unrolled at
-//! `opt-level = 3` alone. Compact terms it takes one by one.
+//! `opt-level = 3` alone. Compact terms it takes one by one, those of one accumulator after the other's.
 
 use super::LANES;
 use super::terms::{Arrays, Number};

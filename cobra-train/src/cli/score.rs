@@ -1,15 +1,17 @@
 //! `cobra score`: estimated poses against a template.
 
+mod document;
+
 use super::args::ScoreArguments;
 use super::choices::assignment;
 use super::failure::Failure;
 use super::outputs;
-use super::report::{JsonTarget, plural, table};
+use super::report::{JsonTarget, plural};
 use super::template_file;
 use super::terminal::Terminal;
 use cobra_infer::{
     Assignment, Camera, Correspondence, Decision, Likelihood, Report, Settings, Sigma, Template,
-    Threshold, bound, score,
+    bound, score,
 };
 use cobra_train::input::{
     CameraFile, CorrespondenceOptions, Estimate, doubt_point_scale, doubt_pose_scale, read_camera,
@@ -17,7 +19,7 @@ use cobra_train::input::{
 };
 use cobra_train::progress::Progress;
 use cobra_train::train::LARGEST_TEMPLATE;
-use serde::Serialize;
+use document::{document, text};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -292,113 +294,4 @@ fn warn_of_low_thresholds(
              measurement's own with --noise, or lower --delta"
         ));
     }
-}
-
-#[derive(Serialize)]
-struct Document<'a> {
-    schema: u32,
-    template: &'a str,
-    unit: &'static str,
-    likelihood: &'static str,
-    assignment: &'static str,
-    delta: f32,
-    threshold_rule: &'static str,
-    /// σ for all components, where `--sigma-hat` gives it.
-    sigma: Option<f32>,
-    /// σ_m, where σ is the template's.
-    noise: Option<f32>,
-    poses: Vec<PoseDocument<'a>>,
-}
-
-#[derive(Serialize)]
-struct PoseDocument<'a> {
-    id: &'a str,
-    points: u32,
-    confidence: f32,
-    threshold: f32,
-    decision: &'static str,
-    reason: &'static str,
-    inlier_share: f32,
-    weight_sum: f32,
-    behind_camera: u32,
-    /// How far the file's matrix was from a rotation, where it had to be replaced.
-    repaired: Option<f32>,
-}
-
-fn document<'a>(
-    template: &'a Template<'_>,
-    settings: &Settings,
-    scored: &[(&'a Estimate, Report)],
-) -> Document<'a> {
-    Document {
-        schema: 1,
-        template: template.name(),
-        unit: template.unit().symbol(),
-        likelihood: match settings.likelihood {
-            Likelihood::Peak => "peak",
-            Likelihood::Density => "density",
-        },
-        assignment: match settings.assignment {
-            Assignment::Nearest => "nearest",
-            Assignment::Maximum => "max",
-            Assignment::Soft => "soft",
-        },
-        delta: settings.delta,
-        threshold_rule: match settings.threshold {
-            Threshold::Paper => "paper",
-            Threshold::Mean => "mean",
-            Threshold::Worst => "worst",
-        },
-        sigma: match settings.sigma {
-            Sigma::Fixed(sigma) => Some(sigma),
-            Sigma::Template { .. } => None,
-        },
-        noise: match settings.sigma {
-            Sigma::Fixed(_) => None,
-            Sigma::Template { noise } => Some(noise),
-        },
-        poses: scored
-            .iter()
-            .map(|(estimate, report)| PoseDocument {
-                id: &estimate.id,
-                points: report.points,
-                confidence: report.confidence,
-                threshold: report.threshold,
-                decision: report.decision.name(),
-                reason: report.decision.reason(),
-                inlier_share: report.inlier_share,
-                weight_sum: report.weight_sum,
-                behind_camera: report.behind_camera,
-                repaired: estimate.repaired,
-            })
-            .collect(),
-    }
-}
-
-fn text(template: &Template<'_>, settings: &Settings, scored: &[(&Estimate, Report)]) -> String {
-    let rows: Vec<Vec<String>> = scored
-        .iter()
-        .map(|(estimate, report)| {
-            vec![
-                estimate.id.clone(),
-                report.points.to_string(),
-                format!("{:.3}", report.confidence),
-                format!("{:.3}", report.threshold),
-                format!("{:.0} %", 100.0 * report.inlier_share),
-                report.decision.name().to_owned(),
-                report.decision.reason().to_owned(),
-            ]
-        })
-        .collect();
-    let within = format!("within {:.3} {}", settings.delta, template.unit().symbol());
-    let header = [
-        "pose",
-        "points",
-        "confidence",
-        "threshold",
-        &within,
-        "decision",
-        "reason",
-    ];
-    table(&header, &["pose", "decision", "reason"], &rows)
 }

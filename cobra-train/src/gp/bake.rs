@@ -239,7 +239,13 @@ mod tests {
         let rms = (map.squared_error(&samples) / samples.len() as f64).sqrt();
         // A range of about 0.17 in 254 steps.
         assert!(rms < 4e-4, "{rms}");
-        assert!(bake(&samples, 3.0).unwrap().squared_error(&samples) > map.squared_error(&samples));
+    }
+
+    #[test]
+    fn finer_maps_meet_what_coarse_ones_cannot() {
+        let samples = samples(|p, q| 0.4 + 0.1 * (12.0 * p).sin() * (9.0 * q).cos());
+        let error = |cells| bake(&samples, cells).unwrap().squared_error(&samples);
+        assert!(error(8.0) < 0.25 * error(3.0));
     }
 
     #[test]

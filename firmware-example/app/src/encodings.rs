@@ -1,8 +1,8 @@
 //! What a term takes by how it is written: bytes in flash, and instructions of the sum over terms.
 //!
 //! Owns the encodings that were compared with the format's own; how the format adds is
-//! `cobra_infer::gp`'s. All are summed as it sums compact terms on a controller, under the default
-//! kernel, the rational quadratic with exponent ½.
+//! `cobra_infer::gp`'s. All are summed in one loop that suits each of them, one term after the other into
+//! eight accumulators, under the default kernel, the rational quadratic with exponent ½.
 
 use crate::{Board, Failed};
 use cobra_infer::kernel::{Covariance, RationalQuadraticHalf};
