@@ -82,7 +82,7 @@ pub(crate) fn posterior_mean_at(
     let Some(mut query) = model.metric.coordinates([u.x, u.y, u.z]) else {
         return f32::NAN;
     };
-    if let Encoded::Compact { .. } = terms.0 {
+    if terms.compact_scale().is_some() {
         query = query.map(|coordinate| coordinate * compact::GRID);
     }
     let sum = model.kernel.visit(
@@ -107,7 +107,10 @@ impl Visitor<f32> for WeightedSum<'_> {
         #[cfg(test)]
         let kernel = evaluations::Counted(kernel);
         match terms.0 {
-            Encoded::Exact(quads) => sum::weighted_sum(&kernel, terms::exact(quads), query),
+            // What is no compact term has no scale, and a product with 1 has the bits of the other factor.
+            Encoded::Exact { quads, scale } => {
+                scale.unwrap_or(1.0) * sum::weighted_sum(&kernel, terms::exact(quads), query)
+            }
             // It was asked before.
             Encoded::Map(_) => f32::NAN,
             Encoded::Compact { scale, bytes } => {

@@ -4,6 +4,7 @@
 
 mod support;
 
+use cobra_infer::template::DecodedTerm;
 use cobra_infer::{
     Assignment, Camera, Correspondence, Kernel, Mixture, Pose, Settings, Template, score,
 };
@@ -82,6 +83,8 @@ fn measure_peers(
     for (name, options) in forms {
         let trained = train(&geometry, &options, &Silent).expect("both objects can be trained");
         let template = Template::from_bytes(&trained.bytes).expect("what was trained can be read");
+        let mut room = vec![DecodedTerm::default(); template.decoded_len()];
+        let template = template.decoded(&mut room).expect("there is room");
         let settings = Settings {
             delta: (ERROR * sphere.radius) as f32,
             ..Settings::for_template(&template, 1.0)

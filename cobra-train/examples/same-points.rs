@@ -7,6 +7,7 @@
 //! `cargo run --release -p cobra-train --example same-points -- MESH FOLDER`: `training.csv` and
 //! `test.csv` in the unit sphere, `x,y,z` a line; the measurements as JSON on standard output.
 
+use cobra_infer::template::DecodedTerm;
 use cobra_infer::{Mixture, ScoreError, Settings, Template};
 use cobra_train::evaluate::{Evaluation, evaluate, evaluation_points};
 use cobra_train::output::write_whole;
@@ -116,6 +117,10 @@ fn settings(template: &Template<'_>) -> Settings {
 
 /// The median time that the likelihoods of all points take, on one core.
 fn scoring(template: &Template<'_>, points: &[Point3<f32>]) -> Result<f64, ScoreError> {
+    // As a host scores.
+    let mut room = vec![DecodedTerm::default(); template.decoded_len()];
+    let decoded = template.decoded(&mut room);
+    let template = decoded.as_ref().unwrap_or(template);
     let mixture = Mixture::<LARGEST_TEMPLATE>::new(template, &settings(template))?;
     Ok(median(SCORINGS, || {
         let found = points.iter().filter_map(|point| mixture.evaluate(point));

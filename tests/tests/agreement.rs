@@ -1,12 +1,12 @@
 //! The agreement vectors score the recorded bits on this host, and would show it if not.
 
 use cobra_agreement::golden::GOLDEN;
-use cobra_agreement::vectors::{CASES, Points, Unreadable, compare, compare_telling};
+use cobra_agreement::vectors::{CASES, COMPONENTS, Points, Unreadable, compare, compare_telling};
 use cobra_agreement::{Outcome, SETS, Set, report};
 use cobra_infer::gp::direction_and_distance;
-use cobra_infer::template::Component;
+use cobra_infer::template::{Component, DecodedTerm};
 use cobra_infer::validity::BoxGrid;
-use cobra_infer::{Camera, Correspondence, Template, tolerance};
+use cobra_infer::{Assignment, Camera, Correspondence, Scorer, Settings, Template, tolerance};
 
 #[test]
 fn the_host_scores_the_recorded_bits_of_every_set() {
@@ -15,6 +15,43 @@ fn the_host_scores_the_recorded_bits_of_every_set() {
         assert_eq!(outcome.mismatched_bits, 0, "{}", set.name);
         assert_eq!(outcome.points, 2000, "{}", set.name);
         assert!(outcome.words > 2000 * CASES.len() as u32 * 9 / 10);
+    }
+}
+
+#[test]
+fn decoded_terms_score_the_bits_of_compact_ones_and_tell_the_same() {
+    for set in SETS {
+        let template = Template::from_bytes(set.template).unwrap();
+        let mut room = vec![DecodedTerm::default(); template.decoded_len()];
+        assert_eq!(room.is_empty(), !template.has_compact_terms());
+        if !room.is_empty() {
+            let short = room.len() - 1;
+            assert!(template.decoded(&mut room[..short]).is_none());
+        }
+        let decoded = template.decoded(&mut room).unwrap();
+        assert_eq!(decoded.cost(), template.cost());
+        assert_eq!(decoded.terms_len(), template.terms_len());
+        for (one, other) in template.components().zip(decoded.components()) {
+            assert!(one.terms.iter().eq(other.terms.iter()));
+            assert_eq!(one.terms.compact_scale(), other.terms.compact_scale());
+        }
+        let points = Points::read(set.points).unwrap();
+        let (camera, pose) = (points.camera().unwrap(), points.pose(0, false).unwrap());
+        for assignment in [Assignment::Nearest, Assignment::Maximum, Assignment::Soft] {
+            let settings = Settings {
+                assignment,
+                ..Settings::with_delta(2.0)
+            };
+            let [mut one, mut other] = [&template, &decoded].map(|template| {
+                Scorer::<COMPONENTS>::new(template, &camera, &pose, &settings).unwrap()
+            });
+            for correspondence in points.correspondences() {
+                let bits = |scorer: &mut Scorer<'_, COMPONENTS>| {
+                    scorer.push(&correspondence).likelihood.to_bits()
+                };
+                assert_eq!(bits(&mut one), bits(&mut other), "{}", set.name);
+            }
+        }
     }
 }
 

@@ -19,7 +19,11 @@ pub struct Terms<'a>(pub(super) Encoded<'a>);
 /// as a term has, only so that their number needs no check.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Encoded<'a> {
-    Exact(&'a [[Word; 4]]),
+    /// With the scale of compact terms, in grid steps, where they were decoded.
+    Exact {
+        quads: &'a [[Word; 4]],
+        scale: Option<f32>,
+    },
     Compact {
         scale: f32,
         bytes: &'a [[u8; TERM_LENGTH]],
@@ -102,7 +106,14 @@ pub(super) fn compact(bytes: &[[u8; TERM_LENGTH]]) -> Option<Arrays<'_, u8, [u8;
 impl<'a> Terms<'a> {
     #[inline]
     pub(crate) const fn from_quads(quads: &'a [[Word; 4]]) -> Self {
-        Self(Encoded::Exact(quads))
+        Self(Encoded::Exact { quads, scale: None })
+    }
+
+    /// Of compact terms, decoded: grid steps and weights as `f32`.
+    #[inline]
+    pub(crate) const fn from_decoded(scale: f32, quads: &'a [[Word; 4]]) -> Self {
+        let scale = Some(scale);
+        Self(Encoded::Exact { quads, scale })
     }
 
     /// Of all x, all y, all z (one byte each), all weights (two).
@@ -121,7 +132,7 @@ impl<'a> Terms<'a> {
     pub const fn map(&self) -> Option<Map<'a>> {
         match self.0 {
             Encoded::Map(map) => Some(map),
-            Encoded::Exact(_) | Encoded::Compact { .. } => None,
+            Encoded::Exact { .. } | Encoded::Compact { .. } => None,
         }
     }
 
@@ -136,7 +147,7 @@ impl<'a> Terms<'a> {
     #[must_use]
     pub fn len(&self) -> usize {
         match self.0 {
-            Encoded::Exact(quads) => quads.len(),
+            Encoded::Exact { quads, .. } => quads.len(),
             Encoded::Compact { bytes, .. } => bytes.len(),
             Encoded::Map(map) => map.len(),
         }
@@ -152,7 +163,8 @@ impl<'a> Terms<'a> {
     #[must_use]
     pub fn compact_scale(&self) -> Option<f32> {
         match self.0 {
-            Encoded::Exact(_) | Encoded::Map(_) => None,
+            Encoded::Map(_) => None,
+            Encoded::Exact { scale, .. } => scale,
             Encoded::Compact { scale, .. } => Some(scale),
         }
     }
@@ -160,24 +172,37 @@ impl<'a> Terms<'a> {
     /// The terms one by one: direction, in the metric's coordinates, and weight. Of compact terms,
     /// the grid's coordinates divided by [`GRID`], and the weight times its scale. Of a map, none.
     pub fn iter(&self) -> impl Iterator<Item = ([f32; 3], f32)> + use<'a> {
-        let (bytes, scale) = match self.0 {
-            Encoded::Exact(_) | Encoded::Map(_) => (&[][..], 1.0),
-            Encoded::Compact { scale, bytes } => (bytes, scale),
+        let (decoded, scale) = match self.0 {
+            Encoded::Exact { scale: None, .. } | Encoded::Map(_) => (&[][..], 1.0),
+            Encoded::Exact {
+                quads,
+                scale: Some(scale),
+            } => (quads, scale),
+            Encoded::Compact { scale, .. } => (&[][..], scale),
         };
-        let compact = compact(bytes).into_iter().flat_map(Arrays::iter);
+        let decoded = exact(decoded).into_iter().flat_map(Arrays::iter);
         self.exact().chain(
-            compact.map(move |(direction, weight)| {
+            self.steps().chain(decoded).map(move |(direction, weight)| {
                 (direction.map(|steps| steps / GRID), weight * scale)
             }),
         )
+    }
+
+    /// Compact terms as they lie in the file: direction in grid steps, and weight in units of the scale.
+    pub(crate) fn steps(&self) -> impl Iterator<Item = ([f32; 3], f32)> + use<'a> {
+        let bytes = match self.0 {
+            Encoded::Exact { .. } | Encoded::Map(_) => &[][..],
+            Encoded::Compact { bytes, .. } => bytes,
+        };
+        compact(bytes).into_iter().flat_map(Arrays::iter)
     }
 
     /// The exact terms: of compact ones and of a map, none. Loading looks at these and at the directions of the
     /// others, so that a controller links no loop over both.
     pub(crate) fn exact(&self) -> impl Iterator<Item = ([f32; 3], f32)> + use<'a> {
         let quads = match self.0 {
-            Encoded::Exact(quads) => quads,
-            Encoded::Compact { .. } | Encoded::Map(_) => &[],
+            Encoded::Exact { quads, scale: None } => quads,
+            Encoded::Exact { .. } | Encoded::Compact { .. } | Encoded::Map(_) => &[],
         };
         exact(quads).into_iter().flat_map(Arrays::iter)
     }
@@ -185,7 +210,7 @@ impl<'a> Terms<'a> {
     /// The directions of compact terms, in grid steps.
     pub(crate) fn grid_directions(&self) -> impl Iterator<Item = [i8; 3]> + use<'a> {
         let bytes = match self.0 {
-            Encoded::Exact(_) | Encoded::Map(_) => &[][..],
+            Encoded::Exact { .. } | Encoded::Map(_) => &[][..],
             Encoded::Compact { bytes, .. } => bytes,
         };
         compact(bytes).into_iter().flat_map(|arrays| {

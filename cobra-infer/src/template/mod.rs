@@ -6,6 +6,7 @@
 //! are needed, so that nothing of a template in flash is copied to RAM.
 
 mod cost;
+mod decoded;
 mod encode;
 mod encode_error;
 mod encode_validity;
@@ -24,6 +25,7 @@ mod validity;
 mod wire;
 
 pub use cost::Cost;
+pub use decoded::DecodedTerm;
 pub use encode::{encode, encoded_len};
 pub use encode_error::EncodeError;
 pub use error::{Section, TemplateError};
@@ -177,7 +179,10 @@ impl<'a> Template<'a> {
     /// Whether the terms are compact ([`crate::gp::compact`]).
     #[must_use]
     pub fn has_compact_terms(&self) -> bool {
-        matches!(self.values, TermValues::Compact(_))
+        matches!(
+            self.values,
+            TermValues::Compact(_) | TermValues::Decoded(..)
+        )
     }
 
     /// Whether the components have maps in the place of terms ([`crate::gp::map`]).
@@ -203,7 +208,7 @@ impl<'a> Template<'a> {
     pub fn term_count(&self) -> usize {
         match self.values {
             TermValues::Exact(quads) => quads.len(),
-            TermValues::Compact(_) | TermValues::Map(_) => {
+            TermValues::Compact(_) | TermValues::Decoded(..) | TermValues::Map(_) => {
                 self.stored().map(|stored| stored.terms().len()).sum()
             }
         }
@@ -215,7 +220,9 @@ impl<'a> Template<'a> {
     pub fn terms_len(&self) -> usize {
         match self.values {
             TermValues::Exact(quads) => quads.as_flattened().as_flattened().len(),
-            TermValues::Compact(bytes) | TermValues::Map(bytes) => bytes.len(),
+            TermValues::Compact(bytes) | TermValues::Decoded(bytes, _) | TermValues::Map(bytes) => {
+                bytes.len()
+            }
         }
     }
 

@@ -56,6 +56,12 @@ impl<'a> Stored<'a> {
         f32::from_le_bytes(sigma_hat)
     }
 
+    /// Where its terms start, in the unit of the encoding, and how many there are.
+    pub(super) fn term_range(&self) -> Option<(usize, usize)> {
+        let (first, count) = wire::term_range(self.record);
+        Some((usize::try_from(first).ok()?, usize::try_from(count).ok()?))
+    }
+
     /// Of a record that was not validated, none.
     #[inline]
     pub(super) fn terms(&self) -> Terms<'a> {

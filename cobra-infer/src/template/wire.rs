@@ -286,6 +286,8 @@ pub(super) type Quad = [Word; 4];
 pub(super) enum TermValues<'a> {
     Exact(&'a [Quad]),
     Compact(&'a [u8]),
+    /// Compact ones, and what [`super::decoded`] has made of them.
+    Decoded(&'a [u8], &'a [Quad]),
     Map(&'a [u8]),
 }
 
@@ -304,6 +306,11 @@ impl<'a> TermValues<'a> {
                     f32::from_le_bytes(*scale),
                     terms.get(..count)?,
                 ))
+            }
+            Self::Decoded(bytes, quads) => {
+                let (scale, _) = bytes.get(first..)?.split_first_chunk()?;
+                let quads = quads.get(decoded_at(first)..)?.get(..count)?;
+                Some(Terms::from_decoded(f32::from_le_bytes(*scale), quads))
             }
             Self::Map(_) => self.map(record).map(Terms::from_map),
         }
@@ -329,7 +336,7 @@ impl<'a> TermValues<'a> {
         let (first, count) = term_range(record);
         first.saturating_add(match self {
             Self::Exact(_) => count,
-            Self::Compact(_) => count
+            Self::Compact(_) | Self::Decoded(..) => count
                 .saturating_mul(TERM_LENGTH as u32)
                 .saturating_add(size_of::<Word>() as u32),
             Self::Map(_) => count.saturating_add(map::HEADER_LENGTH as u32),
@@ -340,9 +347,15 @@ impl<'a> TermValues<'a> {
     pub(super) fn end(self) -> usize {
         match self {
             Self::Exact(quads) => quads.len(),
-            Self::Compact(bytes) | Self::Map(bytes) => bytes.len(),
+            Self::Compact(bytes) | Self::Decoded(bytes, _) | Self::Map(bytes) => bytes.len(),
         }
     }
+}
+
+/// Where the decoded terms of a component start whose compact ones start at this byte: no two components
+/// overlap, because before a component's terms lies its scale.
+pub(super) const fn decoded_at(first: usize) -> usize {
+    first.div_ceil(TERM_LENGTH)
 }
 
 /// C_k.

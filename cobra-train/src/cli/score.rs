@@ -9,6 +9,7 @@ use super::outputs;
 use super::report::{JsonTarget, plural};
 use super::template_file;
 use super::terminal::Terminal;
+use cobra_infer::template::DecodedTerm;
 use cobra_infer::{
     Assignment, Camera, Correspondence, Decision, Likelihood, Report, Settings, Sigma, Template,
     bound, score,
@@ -31,6 +32,8 @@ pub(super) fn run(arguments: &ScoreArguments, terminal: &Terminal) -> Result<(),
     let bytes = template_file::read(&arguments.template)?;
     let template = Template::from_bytes(&bytes)
         .map_err(|error| Failure::template(&arguments.template, &error))?;
+    let mut room = vec![DecodedTerm::default(); template.decoded_len()];
+    let template = template.decoded(&mut room).unwrap_or(template);
     let cameras = read_camera(&arguments.camera)?;
     let estimates = read_estimates(&arguments.poses)?;
     let settings = settings(arguments, &template);

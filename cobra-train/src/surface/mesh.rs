@@ -9,6 +9,9 @@ use nalgebra::{Point3, Vector3};
 use super::bounds::{BoundingSphere, CoordinateError, check_coordinates};
 use super::diameter::diameter;
 
+/// Steps in the unit of normalised coordinates.
+const STEPS: f64 = 4_294_967_296.0;
+
 /// A triangle mesh with at least one triangle of non-zero area, all of whose vertices are finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
@@ -132,10 +135,18 @@ impl Mesh {
     }
 
     /// The same mesh, moved and scaled so that `sphere` becomes the unit sphere at the origin.
+    ///
+    /// Coordinates are rounded to 2⁻³²: an object in metres then has the vertices that it has in
+    /// millimetres, and what chooses among charts by small differences chooses the same.
     #[must_use]
     pub fn normalised(&self, sphere: &BoundingSphere) -> Self {
+        let rounded = |x: f64| (x * STEPS).round() / STEPS;
         Self {
-            vertices: self.vertices.iter().map(|v| sphere.normalise(v)).collect(),
+            vertices: self
+                .vertices
+                .iter()
+                .map(|v| sphere.normalise(v).map(rounded))
+                .collect(),
             triangles: self.triangles.clone(),
             dropped: self.dropped,
         }
