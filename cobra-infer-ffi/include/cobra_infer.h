@@ -30,7 +30,7 @@
 /**
  * Bytes that hold a template's handle on every processor.
  */
-#define COBRA_TEMPLATE_SIZE 160
+#define COBRA_TEMPLATE_SIZE 176
 
 /**
  * Alignment of a template's handle on every processor.
