@@ -202,11 +202,23 @@ fn one_by_one<K: Covariance<f32>, C: Number, W: Number>(
     let (zs, z_rest) = zs.as_chunks();
     let (ws, w_rest) = terms.weights.as_chunks();
     let mut lanes = [0.0; LANES];
+    let ((x_pairs, xs), (y_pairs, ys)) = (xs.as_chunks::<2>(), ys.as_chunks::<2>());
+    let ((z_pairs, zs), (w_pairs, ws)) = (zs.as_chunks::<2>(), ws.as_chunks::<2>());
     for (index, lane) in lanes.iter_mut().enumerate() {
+        let at = |x: &[C; LANES], y: &[C; LANES], z: &[C; LANES], w: &[W; LANES]| {
+            let place = [&of(x, index), &of(y, index), &of(z, index)];
+            term(kernel, query, place, &of(w, index))
+        };
         let mut sum = 0.0;
+        // Two a turn: counting takes a tenth of it otherwise.
+        for ((([x, x2], [y, y2]), [z, z2]), [w, w2]) in
+            x_pairs.iter().zip(y_pairs).zip(z_pairs).zip(w_pairs)
+        {
+            sum += at(x, y, z, w);
+            sum += at(x2, y2, z2, w2);
+        }
         for (((x, y), z), w) in xs.iter().zip(ys).zip(zs).zip(ws) {
-            let (x, y, z, w) = (of(x, index), of(y, index), of(z, index), of(w, index));
-            sum += term(kernel, query, [&x, &y, &z], &w);
+            sum += at(x, y, z, w);
         }
         *lane = sum;
     }
