@@ -9,7 +9,7 @@ use nalgebra::{Point3, Vector3};
 use super::bounds::{BoundingSphere, CoordinateError, check_coordinates};
 use super::diameter::diameter;
 
-/// Steps in the unit of normalised coordinates.
+/// Steps in the unit of rounded coordinates.
 const STEPS: f64 = 4_294_967_296.0;
 
 /// A triangle mesh with at least one triangle of non-zero area, all of whose vertices are finite.
@@ -134,19 +134,21 @@ impl Mesh {
         diameter(self.used_vertices().copied().collect())
     }
 
+    /// The same mesh with coordinates rounded to 2⁻³²: of an object in metres, normalised, the vertices
+    /// that it has in millimetres, so that what chooses among charts by small differences chooses the same.
+    #[must_use]
+    pub(crate) fn rounded(mut self) -> Self {
+        for vertex in &mut self.vertices {
+            *vertex = vertex.map(|x| (x * STEPS).round() / STEPS);
+        }
+        self
+    }
+
     /// The same mesh, moved and scaled so that `sphere` becomes the unit sphere at the origin.
-    ///
-    /// Coordinates are rounded to 2⁻³²: an object in metres then has the vertices that it has in
-    /// millimetres, and what chooses among charts by small differences chooses the same.
     #[must_use]
     pub fn normalised(&self, sphere: &BoundingSphere) -> Self {
-        let rounded = |x: f64| (x * STEPS).round() / STEPS;
         Self {
-            vertices: self
-                .vertices
-                .iter()
-                .map(|v| sphere.normalise(v).map(rounded))
-                .collect(),
+            vertices: self.vertices.iter().map(|v| sphere.normalise(v)).collect(),
             triangles: self.triangles.clone(),
             dropped: self.dropped,
         }

@@ -70,7 +70,7 @@ impl Surface {
     ) -> Result<Self, TrainError> {
         match object {
             Geometry::Mesh(mesh) => {
-                let mesh = mesh.normalised(sphere);
+                let mesh = mesh.normalised(sphere).rounded();
                 let caster = RayCaster::new(&mesh);
                 Ok(Self::Faces(Box::new(Faces { mesh, caster })))
             }
