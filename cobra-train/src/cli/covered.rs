@@ -74,8 +74,13 @@ pub(super) fn text(trained: &Trained, template: &Template<'_>) -> String {
         ));
     }
     if let Some(deviation) = &trained.deviation {
+        let how = if template.has_maps() {
+            "baked"
+        } else {
+            "compressed"
+        };
         lines.push(format!(
-            "compressed: {:.2} sigma-hat rms from the exact Gaussian process, {:.1} at most",
+            "{how}: {:.2} sigma-hat rms from the exact Gaussian process, {:.1} at most",
             deviation.rms, deviation.max
         ));
     }

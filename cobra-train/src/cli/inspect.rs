@@ -8,7 +8,7 @@ use super::template_file;
 use super::terminal::Terminal;
 use cobra_infer::template::{Quality, RECORD_LENGTH, VERSION};
 use cobra_infer::{Assignment, Template};
-use cobra_train::export::{counted, features};
+use cobra_train::export::{counted, elements, features};
 use serde::Serialize;
 
 pub(super) fn run(arguments: &InspectArguments, terminal: &Terminal) -> Result<(), Failure> {
@@ -24,7 +24,7 @@ pub(super) fn run(arguments: &InspectArguments, terminal: &Terminal) -> Result<(
     if json.replaces_the_table() {
         return Ok(());
     }
-    terminal.print(&text(&document, counted(&template)))
+    terminal.print(&text(&document, elements(&template), counted(&template)))
 }
 
 #[derive(Serialize)]
@@ -166,7 +166,7 @@ impl Document {
     }
 }
 
-fn text(document: &Document, counted: &str) -> String {
+fn text(document: &Document, terms: &str, counted: &str) -> String {
     let unit = document.unit;
     let bytes = &document.bytes;
     let evaluations = &document.kernel_evaluations_per_point;
@@ -190,11 +190,6 @@ fn text(document: &Document, counted: &str) -> String {
             row
         })
         .collect();
-    let terms = if document.encoding == "map" {
-        "nodes"
-    } else {
-        "terms"
-    };
     let (x_header, sigma_hat_header) = (format!("x ({unit})"), format!("sigma-hat ({unit})"));
     let mut header = vec![
         "component",

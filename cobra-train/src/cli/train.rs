@@ -16,6 +16,7 @@ use cobra_infer::template::NAME_CAPACITY;
 use cobra_infer::{Exponent, Metric, Model, Template, Unit};
 use cobra_train::coverage::{Coverage, coverage as measure};
 use cobra_train::evaluate::evaluation_points;
+use cobra_train::export::elements;
 use cobra_train::output::write_whole;
 use cobra_train::progress::Progress;
 use cobra_train::reference::read_reference_points;
@@ -79,10 +80,11 @@ pub(super) fn run(arguments: &TrainArguments, terminal: &Terminal) -> Result<(),
         return Ok(());
     }
     terminal.print(&format!(
-        "{}: {}, {} terms, {} bytes",
+        "{}: {}, {} {}, {} bytes",
         arguments.output.display(),
         plural(template.component_count(), "component"),
         template.term_count(),
+        elements(&template),
         trained.bytes.len()
     ))?;
     terminal.print(&covered::text(&trained, &template))?;

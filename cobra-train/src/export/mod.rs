@@ -26,6 +26,16 @@ pub fn features(template: &Template<'_>) -> Vec<&'static str> {
         .collect()
 }
 
+/// What a template's components are made of.
+#[must_use]
+pub fn elements(template: &Template<'_>) -> &'static str {
+    if template.has_maps() {
+        "nodes"
+    } else {
+        "terms"
+    }
+}
+
 /// What [`Template::cost`] counts.
 #[must_use]
 pub fn counted(template: &Template<'_>) -> &'static str {

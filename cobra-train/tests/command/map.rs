@@ -52,3 +52,31 @@ fn maps_cannot_speak_everywhere() {
     let everywhere = scene.arguments(&words(&["--validity", "everywhere"]));
     refuse(&everywhere[..], 2, &["--mean map", "--validity verified"]);
 }
+
+#[test]
+fn maps_are_told_from_terms() {
+    let scene = Scene::new();
+    let trained = succeed(scene.arguments(&words(&["--budget", "4000"]))).stdout;
+    assert!(
+        trained.contains(" nodes, ") && trained.contains("baked: "),
+        "{trained}"
+    );
+    assert!(!trained.contains("terms"), "{trained}");
+    let inspected = succeed(scene.arguments(&["inspect", "@part.cobra"])).stdout;
+    for words in [
+        "map\n",
+        "nodes read a point: at most 16",
+        "none of cobra-infer",
+    ] {
+        assert!(inspected.contains(words), "{words}: {inspected}");
+    }
+    let json = scene.arguments(&["inspect", "@part.cobra", "--json", "-"]);
+    let document: serde_json::Value = serde_json::from_str(&succeed(json).stdout).unwrap();
+    assert_eq!(document["encoding"], "map");
+    assert_eq!(document["features"], serde_json::json!([]));
+    assert!(document["quality"]["deviation"]["rms"].as_f64().unwrap() > 0.0);
+    let header = scene.arguments(&["export", "@part.cobra", "--format", "c", "-o", "@part.h"]);
+    succeed(header);
+    let header = std::fs::read_to_string(scene.path("part.h")).unwrap();
+    assert!(header.contains("features of cobra-infer: none"), "{header}");
+}

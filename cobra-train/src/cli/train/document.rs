@@ -62,6 +62,7 @@ struct UnitSphereDocument {
 struct ComponentDocument {
     centre: [f32; 3],
     sigma_hat: f32,
+    /// With `--mean map`, nodes.
     terms: usize,
     test_points: usize,
     /// Those of them that it does not predict within tau.
