@@ -24,7 +24,8 @@
 //! | [`tolerance`] | every tolerance this crate applies, in one table |
 //! | [`math`] | the only place that knows `libm` |
 //!
-//! The features `log` and `defmt`, off by default, tell a logger of templates loaded and refused
+//! The feature `wide-vectors`, off by default and for hosts alone, lets the sum over terms use vectors as wide
+//! as the processor has; the bits stay the same. The features `log` and `defmt`, off by default, tell a logger of templates loaded and refused
 //! and of each pose's report; with `defmt`, errors, reports and settings are `defmt::Format` too.
 //!
 //! # Example
@@ -83,6 +84,7 @@ pub mod tolerance;
 mod trace;
 mod unit;
 pub mod validity;
+mod widest;
 
 pub use bound::Threshold;
 pub use camera::{Camera, Correspondence};

@@ -1,16 +1,17 @@
 //! Σᵢ wᵢ k(query, uᵢ), in the order that the format prescribes.
 //!
 //! The order is [`crate::gp`]'s; what is owned here is how the compilers are led to do it fast, which
-//! takes some shapes of the same sum. A host goes over the terms once and makes vectors of four lanes
-//! of the eight accumulators; compact terms it converts a block at a time before that. A controller
-//! keeps all of four terms in registers: with eight at a time it loads more words ahead than it has
-//! registers for, and a term costs two instructions more. Hence there each half of the accumulators goes
-//! over the terms by itself, and the four are written out: a loop over them is unrolled at
+//! takes some shapes of the same sum. A host goes over the terms once and makes vectors of the eight
+//! accumulators, as wide as `widest` finds them; compact terms it converts a block at a time before that.
+//! A controller keeps all of four terms in registers: with eight at a time it loads more words ahead than
+//! it has registers for, and a term costs two instructions more. Hence there each half of the accumulators
+//! goes over the terms by itself, and the four are written out: a loop over them is unrolled at
 //! `opt-level = 3` alone. Compact terms it takes one by one, those of one accumulator after the other's.
 
 use super::LANES;
 use super::terms::{Arrays, Number};
 use crate::kernel::Covariance;
+use crate::widest::{Routine, widest};
 
 /// One array in whole rounds of the accumulators.
 type Rounds<'a, N> = &'a [[N; LANES]];
@@ -56,11 +57,7 @@ fn in_rounds<K: Covariance<f32>, C: Number, W: Number>(
 }
 
 /// The accumulators after the terms that fill whole rounds of them.
-///
-/// On hosts out of line on purpose: next to the sum over the accumulators, which adds them in pairs,
-/// the compiler makes vectors of two lanes where four fit, and the loop takes three times as long.
-#[cfg_attr(not(target_os = "none"), inline(never))]
-#[cfg_attr(target_os = "none", inline)]
+#[inline]
 fn whole_rounds<K: Covariance<f32>, C: Number, W: Number>(
     kernel: &K,
     coordinates: [Rounds<'_, C>; 3],
@@ -68,37 +65,64 @@ fn whole_rounds<K: Covariance<f32>, C: Number, W: Number>(
     query: [f32; 3],
 ) -> [f32; LANES] {
     if cfg!(target_os = "none") {
-        in_halves(kernel, coordinates, weights, query)
-    } else {
-        let mut lanes = [0.0; LANES];
-        if size_of::<C>() == size_of::<f32>() {
-            at_once(kernel, coordinates, weights, query, &mut lanes);
-        } else {
-            in_blocks(kernel, coordinates, weights, query, &mut lanes);
-        }
-        lanes
+        return in_halves(kernel, coordinates, weights, query);
     }
+    let mut lanes = [0.0; LANES];
+    if size_of::<C>() == size_of::<f32>() {
+        at_once(kernel, coordinates, weights, query, &mut lanes);
+    } else {
+        in_blocks(kernel, coordinates, weights, query, &mut lanes);
+    }
+    lanes
 }
 
-/// For hosts. All of a round is read before any of it is computed with: a kernel that calls a
-/// function then has the distances of a round ready before the first call.
-#[inline(always)]
+/// For hosts.
+///
+/// Out of line on purpose: next to the sum over the accumulators, which adds them in pairs, the compiler
+/// makes vectors of two lanes where four fit, and the loop takes three times as long.
+#[inline(never)]
 fn at_once<K: Covariance<f32>, C: Number, W: Number>(
     kernel: &K,
-    [xs, ys, zs]: [Rounds<'_, C>; 3],
-    ws: Rounds<'_, W>,
+    coordinates: [Rounds<'_, C>; 3],
+    weights: Rounds<'_, W>,
     query: [f32; 3],
     lanes: &mut [f32; LANES],
 ) {
-    let mut sums = *lanes;
-    for (((x, y), z), w) in xs.iter().zip(ys).zip(zs).zip(ws) {
-        let [x, y, z] = [x, y, z].map(|numbers| numbers.map(C::read));
-        let w = w.map(W::read);
-        for ((((lane, x), y), z), w) in sums.iter_mut().zip(x).zip(y).zip(z).zip(w) {
-            *lane += w * kernel.between(query, [x, y, z]);
+    *lanes = widest(AtOnce {
+        kernel,
+        coordinates,
+        weights,
+        query,
+        lanes: *lanes,
+    });
+}
+
+/// All of a round is read before any of it is computed with: a kernel that calls a function then has the
+/// distances of a round ready before the first call.
+struct AtOnce<'a, K, C, W> {
+    kernel: &'a K,
+    coordinates: [Rounds<'a, C>; 3],
+    weights: Rounds<'a, W>,
+    query: [f32; 3],
+    lanes: [f32; LANES],
+}
+
+impl<K: Covariance<f32>, C: Number, W: Number> Routine for AtOnce<'_, K, C, W> {
+    type Output = [f32; LANES];
+
+    #[inline(always)]
+    fn run(self) -> [f32; LANES] {
+        let [xs, ys, zs] = self.coordinates;
+        let mut sums = self.lanes;
+        for (((x, y), z), w) in xs.iter().zip(ys).zip(zs).zip(self.weights) {
+            let [x, y, z] = [x, y, z].map(|numbers| numbers.map(C::read));
+            let w = w.map(W::read);
+            for ((((lane, x), y), z), w) in sums.iter_mut().zip(x).zip(y).zip(z).zip(w) {
+                *lane += w * self.kernel.between(self.query, [x, y, z]);
+            }
         }
+        sums
     }
-    *lanes = sums;
 }
 
 /// Rounds that are converted at a time.
@@ -123,20 +147,8 @@ fn in_blocks<K: Covariance<f32>, C: Number, W: Number>(
             converted(ys, &mut y),
             converted(zs, &mut z),
         ];
-        one_block(kernel, coordinates, converted(ws, &mut w), query, lanes);
+        at_once(kernel, coordinates, converted(ws, &mut w), query, lanes);
     }
-}
-
-/// Out of line for the reason that [`whole_rounds`] is.
-#[inline(never)]
-fn one_block<K: Covariance<f32>>(
-    kernel: &K,
-    coordinates: [Rounds<'_, f32>; 3],
-    weights: Rounds<'_, f32>,
-    query: [f32; 3],
-    lanes: &mut [f32; LANES],
-) {
-    at_once(kernel, coordinates, weights, query, lanes);
 }
 
 #[inline(never)]
@@ -324,5 +336,8 @@ mod tests {
         };
         let single = one_by_one(kernel, terms, query);
         assert_eq!(single.map(f32::to_bits), expected);
+        // With `wide-vectors`, on the vectors of this processor.
+        let widest = whole_rounds(kernel, coordinates, weights, query);
+        assert_eq!(widest.map(f32::to_bits), expected);
     }
 }
