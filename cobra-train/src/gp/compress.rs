@@ -10,6 +10,7 @@
 
 use super::cholesky::{Cholesky, NotPositiveDefinite};
 use super::gram::{Coordinates, Hyperparameters, covariance, covariances};
+use cobra_infer::gp::LANES;
 use cobra_infer::gp::compact::GRID;
 use cobra_infer::{Kernel, Metric};
 use faer::Mat;
@@ -59,7 +60,7 @@ pub struct Compressed {
 /// Each starts with 8 directions far from one another; then, again and again, directions are added
 /// where residuals are largest, whichever component they belong to, and all weights are solved
 /// anew: w minimises ‖y − K_uz w‖² + (η/v) wᵀK_zz w + 10⁻⁶‖w‖², over all points u and the chosen
-/// directions z as the grid has rounded them.
+/// directions z as the grid has rounded them. A component with more than 8 terms gets a multiple of 8.
 ///
 /// # Errors
 /// [`NotPositiveDefinite`], where hyperparameters leave no finite solution.
@@ -85,7 +86,35 @@ pub fn compress(
             .par_iter_mut()
             .try_for_each(|state| if state.stale { state.solve() } else { Ok(()) })?;
     }
+    whole_rounds(&mut states, terms, most);
+    states
+        .par_iter_mut()
+        .try_for_each(|state| if state.stale { state.solve() } else { Ok(()) })?;
     Ok(states.iter().map(State::compressed).collect())
+}
+
+/// Leaves each component as many directions as fill whole rounds of the accumulators that a sum is
+/// interleaved over, because a round in part takes a host longer than a whole one: what is over goes, and
+/// those that lose most get a round for it while there is room for one.
+fn whole_rounds(states: &mut [State<'_>], terms: usize, most: usize) {
+    let mut losses = Vec::new();
+    for (index, state) in states.iter_mut().enumerate() {
+        let over = state.chosen.len() % LANES;
+        if over > 0 && state.chosen.len() > LANES {
+            state.keep(state.chosen.len() - over);
+            losses.push((over, index));
+        }
+    }
+    losses.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.cmp(&b.1)));
+    let total: usize = states.iter().map(|state| state.chosen.len()).sum();
+    let rounds = terms.saturating_sub(total) / LANES;
+    for (_, index) in losses.into_iter().take(rounds) {
+        let state = &mut states[index];
+        let whole = state.chosen.len() + LANES;
+        if whole <= most {
+            state.fill(whole);
+        }
+    }
 }
 
 /// Adds the directions of the largest residuals, to components that have fewer than `most`; returns how
@@ -180,6 +209,29 @@ impl<'a> State<'a> {
             self.columns.push(column);
             self.chosen.push(grid);
             self.stale = true;
+        }
+    }
+
+    /// Only the first directions.
+    fn keep(&mut self, count: usize) {
+        self.chosen.truncate(count);
+        self.columns.truncate(count);
+        self.stale = true;
+    }
+
+    /// Adds the directions of its own largest residuals until there are so many.
+    fn fill(&mut self, count: usize) {
+        let mut points: Vec<usize> = (0..self.residuals.len()).collect();
+        points.sort_by(|&a, &b| {
+            let (a_size, b_size) = (self.residuals[a].abs(), self.residuals[b].abs());
+            b_size.total_cmp(&a_size).then(a.cmp(&b))
+        });
+        let mut fresh = Vec::new();
+        for point in points {
+            if self.chosen.len() == count {
+                break;
+            }
+            self.offer(point, &mut fresh);
         }
     }
 

@@ -21,9 +21,8 @@ const RUN: usize = 4;
 /// with 14.
 const FEWEST_TERMS: usize = 64;
 
-/// A chart has no more terms: they are most of what a point costs, and the largest chart is asked most
-/// often. On the screwdriver in 14,336 bytes this takes a sixth of the time and 0.02 of F; 170 would
-/// take 0.5.
+/// A chart has no more terms, even where there are too many charts for the large ones to be split: terms are
+/// most of what a point costs, and the largest chart is asked most often.
 const MOST_TERMS: usize = 256;
 
 /// A compressed template has no more components: as many as a controller makes room for unless it is

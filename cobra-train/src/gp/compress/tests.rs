@@ -143,3 +143,20 @@ fn no_component_has_more_terms_than_the_most() {
     let few = compress(&patches, 200, 3).unwrap();
     assert!(few.iter().all(|c| c.weights.len() == 3));
 }
+
+#[test]
+fn terms_fill_whole_rounds_of_the_accumulators() {
+    let patches = [patch(Vector3::z(), 0.4, 900), patch(Vector3::x(), 0.8, 600)];
+    for asked in [9, 16, 41, 60, 100] {
+        let compressed = compress(&patches, asked, 48).unwrap();
+        for component in &compressed {
+            let count = component.weights.len();
+            assert!(count < LANES || count % LANES == 0, "{count} of {asked}");
+        }
+        let all = terms(&compressed);
+        assert!(
+            all <= asked && all + 2 * LANES > asked.min(96),
+            "{all} of {asked}"
+        );
+    }
+}

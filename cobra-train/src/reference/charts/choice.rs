@@ -5,7 +5,7 @@
 use super::candidate::Fitted;
 use super::region::Samples;
 use super::{Chart, RING};
-use crate::surface::NearestPoints;
+use crate::surface::{NearestPoints, SurfacePoint};
 use crate::validity::sparsity;
 
 /// A chart is chosen only if it explains this share of the samples that others do not: each costs a
@@ -101,7 +101,7 @@ pub(super) fn disjoint(judged: &[Fitted], chosen: &[usize], samples: &Samples) -
         .map(|&index| {
             let mut chart = judged[index].chart.clone();
             chart.own.retain(|&sample| owner[sample] == Some(index));
-            keep_around(&mut chart, samples);
+            keep_around(&mut chart, &samples.points);
             chart
         })
         .filter(|chart| !chart.own.is_empty())
@@ -110,11 +110,11 @@ pub(super) fn disjoint(judged: &[Fitted], chosen: &[usize], samples: &Samples) -
 
 /// Leaves a chart no more than its ring of what others own now: a compressed process has no terms to
 /// spare for it.
-fn keep_around(chart: &mut Chart, samples: &Samples) {
-    let position = |sample: usize| -> [f64; 3] { samples.points[sample].position.into() };
+pub(super) fn keep_around(chart: &mut Chart, points: &[SurfacePoint]) {
+    let position = |sample: usize| -> [f64; 3] { points[sample].position.into() };
     let own: Vec<[f64; 3]> = chart.own.iter().map(|&sample| position(sample)).collect();
     let tree = NearestPoints::new(&own);
-    let ring = RING * sparsity(samples.points.len());
+    let ring = RING * sparsity(points.len());
     chart
         .training
         .retain(|&sample| tree.distance(&position(sample)) < ring);

@@ -17,6 +17,7 @@ mod cover;
 mod ownership;
 mod process;
 mod region;
+mod split;
 
 use crate::gp::{FitError, Hyperparameters};
 use crate::surface::SurfacePoint;
@@ -28,6 +29,7 @@ use nalgebra::Point3;
 use ownership::{Sighted, owners};
 use rayon::prelude::*;
 use region::{Samples, Sight, region};
+pub use split::split;
 
 /// Rounds in which charts are added for what is left and the whole surface is distributed anew.
 const SETTLING: u64 = 3;

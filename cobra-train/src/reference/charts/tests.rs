@@ -133,3 +133,24 @@ fn the_seed_decides_and_the_number_of_threads_does_not() {
     assert_eq!(with(1, 0), with(3, 0));
     assert_ne!(with(1, 0), with(1, 1));
 }
+
+#[test]
+fn large_charts_are_split_into_halves_that_own_what_they_owned() {
+    let points = two_spheres();
+    let whole = charts(&points, 64, 0).unwrap();
+    for most in [1, whole.len(), 9, 64] {
+        let pieces = split(whole.clone(), &points, most);
+        assert!(pieces.len() <= most.max(whole.len()));
+        assert_eq!(owned(&points, &pieces), owned(&points, &whole));
+        for piece in &pieces {
+            let from = whole.iter().find(|chart| chart.centre == piece.centre);
+            let from = from.expect("no chart at this centre");
+            assert!(piece.own.iter().all(|i| from.own.contains(i)));
+            assert!(piece.training.iter().all(|i| from.training.contains(i)));
+            assert!(piece.own.is_sorted() && piece.training.is_sorted());
+            if most == 64 {
+                assert!(piece.own.len() * 25 < points.len() * 2);
+            }
+        }
+    }
+}
