@@ -4,7 +4,8 @@
 //! `reference`'s work.
 
 use super::membership::{Patch, patches};
-use super::{LARGEST_TEMPLATE, SurfaceSampling, TrainError, TrainOptions};
+use super::squeeze::most_charts;
+use super::{LARGEST_TEMPLATE, MeanForm, SurfaceSampling, TrainError, TrainOptions};
 use crate::reference::{self, Cluster, ClusterError};
 use crate::surface::{BoundingSphere, SurfacePoint};
 use nalgebra::Point3;
@@ -40,6 +41,7 @@ pub enum ReferencePoints {
 /// Components and which of the training points are whose.
 pub(super) fn place(
     training: &[SurfacePoint],
+    others: &[SurfacePoint],
     sphere: &BoundingSphere,
     options: &TrainOptions,
 ) -> Result<Vec<Patch>, TrainError> {
@@ -48,7 +50,11 @@ pub(super) fn place(
         if options.sampling == SurfaceSampling::ReferencePoints {
             return Err(TrainError::NeedsReferencePoints);
         }
-        let charts = reference::charts(training, most, options.seed)
+        let most = match (options.mean, options.budget) {
+            (MeanForm::Process, Some(budget)) => most.min(most_charts(budget)),
+            _ => most,
+        };
+        let charts = reference::charts(training, others, most, options.seed)
             .map_err(|source| TrainError::Charts { source })?;
         if charts.is_empty() {
             return Err(TrainError::NoCharts);
