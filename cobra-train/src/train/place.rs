@@ -6,7 +6,7 @@
 use super::membership::{Patch, patches};
 use super::squeeze::most_charts;
 use super::{LARGEST_TEMPLATE, MeanForm, SurfaceSampling, TrainError, TrainOptions};
-use crate::reference::{self, Cluster, ClusterError};
+use crate::reference::{self, Borders, Cluster, ClusterError};
 use crate::surface::{BoundingSphere, SurfacePoint};
 use nalgebra::Point3;
 
@@ -54,7 +54,11 @@ pub(super) fn place(
             (MeanForm::Process, Some(budget)) => most.min(most_charts(budget)),
             _ => most,
         };
-        let charts = reference::charts(training, others, most, options.seed)
+        let borders = match options.budget {
+            Some(_) => Borders::Sharp,
+            None => Borders::Overlapping,
+        };
+        let charts = reference::charts(training, others, most, borders, options.seed)
             .map_err(|source| TrainError::Charts { source })?;
         if charts.is_empty() {
             return Err(TrainError::NoCharts);

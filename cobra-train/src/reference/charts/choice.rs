@@ -4,7 +4,7 @@
 
 use super::candidate::Fitted;
 use super::region::Samples;
-use super::{Chart, LEFT, RING};
+use super::{Borders, Chart, LEFT, RING};
 use crate::surface::NearestPoints;
 use crate::validity::sparsity;
 
@@ -88,9 +88,14 @@ fn needed(judged: &[Fitted], mut chosen: Vec<usize>, asked: usize) -> Vec<usize>
 /// The chosen charts, each sample with the first of its owners that explains it, else with the first
 /// of its owners.
 ///
-/// What a chart explains around its own it keeps as well: the cells of two charts need not meet where
-/// their samples do, and what lies between is then nobody's.
-pub(super) fn shared_out(judged: &[Fitted], chosen: &[usize], samples: &Samples) -> Vec<Chart> {
+/// Where borders overlap, what a chart explains around its own it keeps as well: the cells of two charts
+/// need not meet where their samples do, and what lies between is then nobody's.
+pub(super) fn shared_out(
+    judged: &[Fitted],
+    chosen: &[usize],
+    borders: Borders,
+    samples: &Samples,
+) -> Vec<Chart> {
     let mut owner = vec![None; samples.points.len()];
     for well in [true, false] {
         for &index in chosen {
@@ -111,7 +116,7 @@ pub(super) fn shared_out(judged: &[Fitted], chosen: &[usize], samples: &Samples)
                 .own
                 .iter()
                 .partition(|&&sample| owner[sample] == Some(index));
-            around.retain(|&sample| fitted.explains(sample));
+            around.retain(|&sample| borders == Borders::Overlapping && fitted.explains(sample));
             keep_around(&mut around, &own, samples);
             chart.own = [own, around].concat();
             chart.own.sort_unstable();

@@ -57,6 +57,15 @@ const REACH: f64 = 0.42;
 /// How far a chart is fitted beyond its own samples.
 const RING: f64 = 0.04;
 
+/// What charts own where they meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Borders {
+    /// A sample is one chart's: cells cost bytes.
+    Sharp,
+    /// A chart keeps what it explains around its own, since the cells of two charts need not meet.
+    Overlapping,
+}
+
 /// A centre and the samples around it.
 #[derive(Clone, Debug)]
 pub struct Chart {
@@ -86,6 +95,7 @@ pub fn charts(
     points: &[SurfacePoint],
     others: &[SurfacePoint],
     most: usize,
+    borders: Borders,
     seed: u64,
 ) -> Result<Vec<Chart>, FitError> {
     let mut samples = Samples::new(points.to_vec(), sparsity(points.len()));
@@ -113,7 +123,7 @@ pub fn charts(
         judged.extend(of_needy(&samples, &demand, added, seed)?);
         chosen = choice(&judged, all, most);
     }
-    Ok(shared_out(&judged, &chosen, &samples))
+    Ok(shared_out(&judged, &chosen, borders, &samples))
 }
 
 /// What charts come to in rounds in which the whole surface is distributed among them anew.

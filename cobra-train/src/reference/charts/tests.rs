@@ -69,7 +69,7 @@ fn most_of_a_cube_an_open_box_and_two_spheres_is_owned() {
         ("open box", open_box(15)),
         ("two spheres", two_spheres()),
     ] {
-        let charts = charts(&points, &[], 64, 0).unwrap();
+        let charts = charts(&points, &[], 64, Borders::Overlapping, 0).unwrap();
         let share = owned(&points, &charts);
         assert!(share > 0.9, "{name}: {share}");
         for chart in &charts {
@@ -84,7 +84,7 @@ fn most_of_a_cube_an_open_box_and_two_spheres_is_owned() {
 #[test]
 fn no_chart_is_of_both_spheres() {
     let points = two_spheres();
-    for chart in charts(&points, &[], 64, 1).unwrap() {
+    for chart in charts(&points, &[], 64, Borders::Overlapping, 1).unwrap() {
         let left = chart.own.iter().filter(|&&index| index < 700).count();
         assert!(left == 0 || left == chart.own.len(), "{left}");
     }
@@ -94,7 +94,7 @@ fn no_chart_is_of_both_spheres() {
 fn there_are_never_more_charts_than_asked_for() {
     let points = cube(0.5, 12);
     for most in [0, 1, 2, 5] {
-        let found = charts(&points, &[], most, 0).unwrap();
+        let found = charts(&points, &[], most, Borders::Overlapping, 0).unwrap();
         assert!(found.len() <= most, "{} of {most}", found.len());
         assert_eq!(found.is_empty(), most == 0);
     }
@@ -108,14 +108,27 @@ fn which_side_is_outside_does_not_matter() {
         point.normal = -point.normal;
     }
     for points in [points, turned] {
-        assert!(owned(&points, &charts(&points, &[], 64, 0).unwrap()) > 0.9);
+        assert!(
+            owned(
+                &points,
+                &charts(&points, &[], 64, Borders::Overlapping, 0).unwrap()
+            ) > 0.9
+        );
     }
 }
 
 #[test]
 fn a_handful_of_points_has_no_charts() {
-    assert!(charts(&[], &[], 64, 0).unwrap().is_empty());
-    assert!(charts(&cube(0.5, 1), &[], 64, 0).unwrap().is_empty());
+    assert!(
+        charts(&[], &[], 64, Borders::Overlapping, 0)
+            .unwrap()
+            .is_empty()
+    );
+    assert!(
+        charts(&cube(0.5, 1), &[], 64, Borders::Overlapping, 0)
+            .unwrap()
+            .is_empty()
+    );
 }
 
 #[test]
@@ -126,7 +139,7 @@ fn the_seed_decides_and_the_number_of_threads_does_not() {
         let found = pool
             .build()
             .unwrap()
-            .install(|| charts(&points, &[], 64, seed));
+            .install(|| charts(&points, &[], 64, Borders::Overlapping, seed));
         let charts = found.unwrap().into_iter();
         charts
             .map(|chart| (chart.centre, chart.own, chart.training))
@@ -141,7 +154,7 @@ fn what_nobody_asks_about_takes_no_charts() {
     let samples = two_spheres();
     let asked_often: Vec<SurfacePoint> = sphere(Point3::new(-0.6, 0.0, 0.0), 0.35, 600_000);
     let of_left = |others: &[SurfacePoint]| {
-        let found = charts(&samples, others, 64, 0).unwrap();
+        let found = charts(&samples, others, 64, Borders::Overlapping, 0).unwrap();
         let (left, right): (Vec<_>, Vec<_>) = found.iter().partition(|chart| chart.own[0] < 700);
         (left.len(), right.len())
     };
