@@ -31,7 +31,7 @@ const MOST_TERMS: usize = 256;
 const MOST_COMPONENTS: usize = 32;
 
 /// Bytes of a component besides its terms, of which validity takes most.
-const COMPONENT: usize = 190;
+const COMPONENT: usize = 110;
 
 /// As many charts as `budget` bytes have room for: what is to be left out is better never chosen, since
 /// those that stay then make up for it.
