@@ -10,7 +10,7 @@ mod kmeans;
 mod membership;
 mod select;
 
-pub use charts::{Chart, charts, split};
+pub use charts::{Aim, Chart, charts, split};
 pub use cluster::{Cluster, NotAPrecision};
 pub use em::{COVARIANCE_FLOOR, GaussianMixture, em};
 pub use given::{ReadReferencePointsError, read_reference_points};

@@ -94,19 +94,19 @@ fn eliminate(candidates: Vec<Point3<f64>>, count: usize, area: f64) -> Vec<Point
         .collect()
 }
 
-/// `count` of `points` that are spread evenly over what they lie on, in their order.
+/// `count` of `points` that are spread evenly over what they lie on, and the others, both in their
+/// order.
 #[must_use]
-pub fn thin(points: Vec<SurfacePoint>, count: usize) -> Vec<SurfacePoint> {
+pub fn thin(points: Vec<SurfacePoint>, count: usize) -> (Vec<SurfacePoint>, Vec<SurfacePoint>) {
     if points.len() <= count {
-        return points;
+        return (points, Vec::new());
     }
     let positions: Vec<Point3<f64>> = points.iter().map(|p| p.position).collect();
     let kept = survivors(&positions, count, estimated_area(&positions));
+    let mut kept = kept.into_iter();
     points
         .into_iter()
-        .zip(kept)
-        .filter_map(|(point, kept)| kept.then_some(point))
-        .collect()
+        .partition(|_| kept.next().unwrap_or(false))
 }
 
 /// Of the surface that points lie on: each stands for an eighth of the disk that reaches to its eighth
@@ -299,7 +299,7 @@ mod tests {
             points.iter().map(|point| point.position).collect()
         };
         let count = 300;
-        let kept = thin(points.clone(), count);
+        let (kept, _) = thin(points.clone(), count);
         let nearest = nearest_distances(&positions(&kept));
         let largest = largest_spacing(1.0, count);
         let least = nearest.iter().copied().fold(f64::INFINITY, f64::min);
@@ -316,7 +316,7 @@ mod tests {
     fn what_is_thinned_keeps_its_order_and_its_number() {
         let points = uneven(400);
         for count in [0, 1, 99, 399] {
-            let kept = thin(points.clone(), count);
+            let (kept, _) = thin(points.clone(), count);
             assert_eq!(kept.len(), count);
             let mut rest = points.iter();
             assert!(kept.iter().all(|point| {
@@ -324,13 +324,13 @@ mod tests {
             }));
         }
         for enough in [400, 401, 5000] {
-            let kept = thin(points.clone(), enough);
+            let (kept, _) = thin(points.clone(), enough);
             let same = kept
                 .iter()
                 .zip(&points)
                 .all(|(a, b)| a.position == b.position);
             assert!(same && kept.len() == points.len());
         }
-        assert!(thin(Vec::new(), 3).is_empty());
+        assert!(thin(Vec::new(), 3).0.is_empty());
     }
 }

@@ -58,6 +58,9 @@ pub(super) struct Faces {
 pub(super) struct Drawn {
     /// What reference points are placed on.
     pub(super) training: Vec<SurfacePoint>,
+    /// Points that cameras see, like those that it will be asked about, and none of `training`; none
+    /// where there are no more than these.
+    pub(super) others: Vec<SurfacePoint>,
     /// What σ̂ is measured on.
     pub(super) test: Vec<Point3<f64>>,
 }
@@ -89,7 +92,11 @@ impl Surface {
             Self::Points(cloud) => {
                 let SplitCloud { training, test } = cloud.split(points, test_points, options.seed);
                 let training = with_estimated_normals(&training);
-                return Ok(Drawn { training, test });
+                return Ok(Drawn {
+                    training,
+                    others: Vec::new(),
+                    test,
+                });
             }
         };
         let spread = matches!(options.reference_points, ReferencePoints::Auto { .. });
@@ -98,13 +105,18 @@ impl Surface {
         let mut training = sample_visible(mesh, caster, count, options.seed, Purpose::Training)?;
         let test = training.split_off(drawn);
         let test = test.into_iter().map(|point| point.position).collect();
+        let mut others = Vec::new();
         if spread {
-            training = thin(training, points);
+            (training, others) = thin(training, points);
         }
         if options.sampling == SurfaceSampling::Poisson {
             training = with_estimated_normals(&sample_poisson(mesh, points, options.seed));
         }
-        Ok(Drawn { training, test })
+        Ok(Drawn {
+            training,
+            others,
+            test,
+        })
     }
 
     /// The training points and whose they are, once there are reference points: as they are unless

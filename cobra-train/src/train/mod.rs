@@ -123,7 +123,7 @@ pub fn train(
     let drawn = surface.draw(options)?;
     done();
     step("placing reference points");
-    let patches = place::place(&drawn.training, &sphere, options)?;
+    let patches = place::place(&drawn.training, &drawn.others, &sphere, options)?;
     let (training, patches) = surface.redraw(drawn.training, patches, options)?;
     done();
     let positions: Vec<Point3<f64>> = training.iter().map(|point| point.position).collect();

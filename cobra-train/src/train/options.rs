@@ -56,7 +56,7 @@ pub enum MeanForm {
 }
 
 /// The most charts unless somebody says otherwise.
-pub const MOST_CHARTS: usize = 64;
+pub const MOST_CHARTS: usize = 96;
 
 /// The bytes that a template is compressed into unless somebody says otherwise: 14 KB.
 pub const BUDGET: usize = 14_336;

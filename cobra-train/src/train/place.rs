@@ -4,8 +4,9 @@
 //! `reference`'s work.
 
 use super::membership::{Patch, patches};
+use super::squeeze::most_charts;
 use super::{LARGEST_TEMPLATE, MeanForm, SurfaceSampling, TrainError, TrainOptions};
-use crate::reference::{self, Cluster, ClusterError};
+use crate::reference::{self, Aim, Cluster, ClusterError};
 use crate::surface::{BoundingSphere, SurfacePoint};
 use nalgebra::Point3;
 
@@ -47,6 +48,7 @@ pub enum ReferencePoints {
 /// Components and which of the training points are whose.
 pub(super) fn place(
     training: &[SurfacePoint],
+    others: &[SurfacePoint],
     sphere: &BoundingSphere,
     options: &TrainOptions,
 ) -> Result<Vec<Patch>, TrainError> {
@@ -55,13 +57,18 @@ pub(super) fn place(
         if options.sampling == SurfaceSampling::ReferencePoints {
             return Err(TrainError::NeedsReferencePoints);
         }
-        let charts = reference::charts(training, most, options.seed)
+        let (most, aim) = match (options.mean, options.budget) {
+            (MeanForm::Process, Some(budget)) => (most.min(most_charts(budget)), Aim::Bytes),
+            (MeanForm::Process, None) => (most, Aim::Coverage),
+            (MeanForm::Map, _) => (most, Aim::Time),
+        };
+        let charts = reference::charts(training, others, most, aim, options.seed)
             .map_err(|source| TrainError::Charts { source })?;
         if charts.is_empty() {
             return Err(TrainError::NoCharts);
         }
-        let charts = match (options.mean, options.budget) {
-            (MeanForm::Process, Some(budget)) => {
+        let charts = match (aim, options.budget) {
+            (Aim::Bytes, Some(budget)) => {
                 let enough = ENOUGH.min(budget / PIECE);
                 reference::split(charts, training, most.min(enough))
             }

@@ -29,6 +29,17 @@ const MOST_TERMS: usize = 256;
 /// told otherwise.
 const MOST_COMPONENTS: usize = 32;
 
+/// Bytes of a component besides its terms, of which validity takes most.
+const COMPONENT: usize = 110;
+
+/// As many charts as `budget` bytes have room for: what is to be left out is better never chosen, since
+/// those that stay then make up for it.
+pub(super) fn most_charts(budget: usize) -> usize {
+    MOST_COMPONENTS
+        .min(budget / (FEWEST_TERMS * TERM + COMPONENT))
+        .max(1)
+}
+
 /// Bytes for what grows by a byte or two as lengths do.
 const SLACK: usize = 16;
 

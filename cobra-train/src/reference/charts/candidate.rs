@@ -10,7 +10,7 @@ use super::{Chart, RING};
 use crate::gp::{FitError, Hyperparameters};
 use crate::random::{Purpose, stream};
 use crate::surface::{NearestPoints, SurfacePoint};
-use crate::validity::{FINE_CELLS, ValidCells, sparsity, verify};
+use crate::validity::{FINE_CELLS, sparsity, verify};
 use nalgebra::Point3;
 use rand::seq::SliceRandom;
 
@@ -34,9 +34,6 @@ pub(super) struct Candidate {
     centre: Point3<f64>,
     members: Vec<u32>,
     incidence: Vec<f32>,
-    /// Samples that were members until it owned them and could not explain them. Once others own
-    /// what misled it, it may.
-    banned: Vec<u32>,
     /// Of the last fit.
     hyperparameters: Option<Hyperparameters>,
     /// The samples that it was last judged by, its own: the others are those of their ring.
@@ -49,9 +46,17 @@ pub(super) struct Candidate {
 #[derive(Clone)]
 pub(super) struct Fitted {
     pub(super) chart: Chart,
-    /// The samples that it sees and explains, in a verified direction, by rising index, whoever owns
-    /// them.
-    pub(super) explained: Vec<usize>,
+    /// Its members that it explains, in a verified direction, by rising index, whoever owns them.
+    well: Vec<usize>,
+    /// The same of what charts are chosen for, members or not.
+    pub(super) explained: Vec<u32>,
+}
+
+impl Fitted {
+    /// Whether it explains a sample that is a member.
+    pub(super) fn explains(&self, member: usize) -> bool {
+        self.well.binary_search(&member).is_ok()
+    }
 }
 
 impl Candidate {
@@ -61,7 +66,6 @@ impl Candidate {
             centre,
             members: seen.members,
             incidence: seen.incidence,
-            banned: Vec::new(),
             hyperparameters: None,
             judged: Vec::new(),
             fitted: None,
@@ -175,16 +179,41 @@ impl Candidate {
         let Some(cells) = verify(&self.centre, &witnesses, mean, sparsity, FINE_CELLS) else {
             return Ok(None);
         };
-        let speaks =
-            |member: usize, cells: &ValidCells| cells.contains(&(position(member) - self.centre));
-        let banned = self.banned.iter().map(|&member| member as usize);
-        let mut explained: Vec<usize> = members()
+        let speaks = |position: &Point3<f64>| cells.contains(&(position - self.centre));
+        let mut well: Vec<usize> = members()
             .zip(residuals)
-            .chain(banned.map(|member| (member, process.residual(&position(member)))))
-            .filter(|(member, residual)| residual.abs() < EXPLAINED && speaks(*member, &cells))
+            .filter(|(member, residual)| residual.abs() < EXPLAINED && speaks(&position(*member)))
             .map(|(member, _)| member)
             .collect();
-        explained.sort_unstable();
+        well.sort_unstable();
+        let distance = |position: &Point3<f64>| nalgebra::distance(position, &self.centre);
+        // What lies nearer or farther than all of its own samples it cannot explain.
+        let (near, far) = own
+            .iter()
+            .map(|&sample| distance(&position(sample)))
+            .fold((f64::INFINITY, 0.0_f64), |(near, far), distance| {
+                (near.min(distance), far.max(distance))
+            });
+        let range = near - EXPLAINED..far + EXPLAINED;
+        let of_all = samples
+            .asked
+            .iter()
+            .enumerate()
+            .filter(|(_, asked)| {
+                range.contains(&distance(&asked.position)) && speaks(&asked.position)
+            })
+            .filter(|(_, asked)| {
+                let residual = left_out[asked.sample]
+                    .filter(|_| asked.is_sample)
+                    .unwrap_or_else(|| process.residual(&asked.position));
+                residual.abs() < EXPLAINED
+            })
+            .map(|(index, _)| index as u32);
+        let explained = if samples.members_alone {
+            well.iter().map(|&member| member as u32).collect()
+        } else {
+            of_all.collect()
+        };
         Ok(Some(Fitted {
             chart: Chart {
                 centre: self.centre,
@@ -192,30 +221,22 @@ impl Candidate {
                 training,
                 hyperparameters: process.hyperparameters(),
             },
+            well,
             explained,
         }))
     }
 
-    /// Takes the round's result: explained samples are needy no longer, own ones that are not
-    /// explained are banned.
-    pub(super) fn take(&mut self, index: usize, owner: &[Option<u32>], needy: &mut [bool]) {
-        let explained = self
-            .fitted
-            .as_ref()
-            .map_or(&[][..], |fitted| &fitted.explained);
-        for &member in explained {
-            needy[member] = false;
-        }
+    /// Leaves to others what it owned and does not explain.
+    pub(super) fn ban_unexplained(&mut self, index: usize, owner: &[Option<u32>]) {
+        let fitted = self.fitted.as_ref();
         let keep: Vec<bool> = self
             .members
             .iter()
             .map(|&member| {
                 owner[member as usize] != Some(index as u32)
-                    || explained.binary_search(&(member as usize)).is_ok()
+                    || fitted.is_some_and(|fitted| fitted.explains(member as usize))
             })
             .collect();
-        let gone = self.members.iter().zip(&keep).filter(|(_, keep)| !**keep);
-        self.banned.extend(gone.map(|(&member, _)| member));
         let mut kept = keep.iter();
         self.members.retain(|_| *kept.next().unwrap_or(&true));
         let mut kept = keep.iter();

@@ -4,25 +4,28 @@
 
 use super::candidate::Fitted;
 use super::region::Samples;
-use super::{Chart, RING};
+use super::{Aim, Chart, RING};
 use crate::surface::{NearestPoints, SurfacePoint};
 use crate::validity::sparsity;
-
-/// A chart is chosen only if it explains this share of the samples that others do not: each costs a
-/// controller time, however little it adds.
-const LEAST_ADDED: f64 = 0.0016;
 
 /// It explains so many in any case.
 const FEWEST_ADDED: usize = 8;
 
-fn fewest(samples: usize) -> usize {
-    ((LEAST_ADDED * samples as f64).round() as usize).max(FEWEST_ADDED)
+fn fewest(aim: Aim, left: usize, asked: usize) -> usize {
+    let effort = aim.effort();
+    let share = if left as f64 > effort.left * asked as f64 {
+        effort.least_wanted
+    } else {
+        effort.least_added
+    };
+    ((share * asked as f64).round() as usize).max(FEWEST_ADDED)
 }
 
 /// The charts that explain most together, at most `most`, the most useful first: greedy set cover.
-pub(super) fn choice(judged: &[Fitted], samples: usize, most: usize) -> Vec<usize> {
-    let mut explained = vec![false; samples];
+pub(super) fn choice(judged: &[Fitted], asked: usize, most: usize, aim: Aim) -> Vec<usize> {
+    let mut explained = vec![false; asked];
     let mut gains: Vec<usize> = judged.iter().map(|chart| chart.explained.len()).collect();
+    let mut left = asked;
     let mut chosen = Vec::new();
     while chosen.len() < most {
         // Gains only fall: those that were no larger need not be counted again.
@@ -31,66 +34,69 @@ pub(super) fn choice(judged: &[Fitted], samples: usize, most: usize) -> Vec<usiz
             if best.is_some_and(|(_, best)| *gain <= best) {
                 continue;
             }
-            let new = judged[index].explained.iter().filter(|&&i| !explained[i]);
+            let new = judged[index]
+                .explained
+                .iter()
+                .filter(|&&i| !explained[i as usize]);
             *gain = new.count();
             if best.is_none_or(|(_, best)| *gain > best) {
                 best = Some((index, *gain));
             }
         }
-        let Some((index, _)) = best.filter(|(_, gain)| *gain >= fewest(samples)) else {
+        let Some((index, gain)) = best.filter(|(_, gain)| *gain >= fewest(aim, left, asked)) else {
             break;
         };
-        for &sample in &judged[index].explained {
-            explained[sample] = true;
+        for &point in &judged[index].explained {
+            explained[point as usize] = true;
         }
+        left -= gain;
         chosen.push(index);
     }
-    needed(judged, chosen, samples)
+    needed(judged, chosen, asked, aim)
 }
 
 /// Without those that the others make up for, the least useful first.
-fn needed(judged: &[Fitted], mut chosen: Vec<usize>, samples: usize) -> Vec<usize> {
-    let mut times = vec![0_u32; samples];
+fn needed(judged: &[Fitted], mut chosen: Vec<usize>, asked: usize, aim: Aim) -> Vec<usize> {
+    let mut times = vec![0_u32; asked];
     for &chart in &chosen {
-        for &sample in &judged[chart].explained {
-            times[sample] += 1;
+        for &point in &judged[chart].explained {
+            times[point as usize] += 1;
         }
     }
     loop {
         let alone = chosen.iter().map(|&chart| {
             let explained = judged[chart].explained.iter();
-            explained.filter(|&&sample| times[sample] == 1).count()
+            explained
+                .filter(|&&point| times[point as usize] == 1)
+                .count()
         });
         let least = alone.enumerate().min_by_key(|(_, alone)| *alone);
-        let Some((place, _)) = least.filter(|(_, alone)| *alone < fewest(samples)) else {
+        let Some((place, _)) = least.filter(|(_, alone)| *alone < fewest(aim, asked, asked)) else {
             return chosen;
         };
-        for &sample in &judged[chosen.remove(place)].explained {
-            times[sample] -= 1;
+        for &point in &judged[chosen.remove(place)].explained {
+            times[point as usize] -= 1;
         }
     }
-}
-
-/// Whether none of the chosen charts explains a sample.
-pub(super) fn needy(judged: &[Fitted], chosen: &[usize], samples: usize) -> Vec<bool> {
-    let mut needy = vec![true; samples];
-    for &chart in chosen {
-        for &sample in &judged[chart].explained {
-            needy[sample] = false;
-        }
-    }
-    needy
 }
 
 /// The chosen charts, each sample with the first of its owners that explains it, else with the first
 /// of its owners.
-pub(super) fn disjoint(judged: &[Fitted], chosen: &[usize], samples: &Samples) -> Vec<Chart> {
+///
+/// For coverage, what a chart explains around its own it keeps as well: the cells of two charts
+/// need not meet where their samples do, and what lies between is then nobody's.
+pub(super) fn shared_out(
+    judged: &[Fitted],
+    chosen: &[usize],
+    aim: Aim,
+    samples: &Samples,
+) -> Vec<Chart> {
     let mut owner = vec![None; samples.points.len()];
-    for explained in [true, false] {
+    for well in [true, false] {
         for &index in chosen {
             let fitted = &judged[index];
             for &sample in &fitted.chart.own {
-                if !explained || fitted.explained.binary_search(&sample).is_ok() {
+                if !well || fitted.explains(sample) {
                     owner[sample].get_or_insert(index);
                 }
             }
@@ -99,23 +105,29 @@ pub(super) fn disjoint(judged: &[Fitted], chosen: &[usize], samples: &Samples) -
     chosen
         .iter()
         .map(|&index| {
-            let mut chart = judged[index].chart.clone();
-            chart.own.retain(|&sample| owner[sample] == Some(index));
-            keep_around(&mut chart, &samples.points);
+            let fitted = &judged[index];
+            let mut chart = fitted.chart.clone();
+            let (own, mut around): (Vec<usize>, Vec<usize>) = chart
+                .own
+                .iter()
+                .partition(|&&sample| owner[sample] == Some(index));
+            around.retain(|&sample| aim == Aim::Coverage && fitted.explains(sample));
+            keep_around(&mut around, &own, &samples.points);
+            chart.own = [own, around].concat();
+            chart.own.sort_unstable();
+            // A compressed process has no terms to spare for what others own now.
+            keep_around(&mut chart.training, &chart.own, &samples.points);
             chart
         })
         .filter(|chart| !chart.own.is_empty())
         .collect()
 }
 
-/// Leaves a chart no more than its ring of what others own now: a compressed process has no terms to
-/// spare for it.
-pub(super) fn keep_around(chart: &mut Chart, points: &[SurfacePoint]) {
+/// Leaves of `some` samples those within the ring around `own`.
+pub(super) fn keep_around(some: &mut Vec<usize>, own: &[usize], points: &[SurfacePoint]) {
     let position = |sample: usize| -> [f64; 3] { points[sample].position.into() };
-    let own: Vec<[f64; 3]> = chart.own.iter().map(|&sample| position(sample)).collect();
-    let tree = NearestPoints::new(&own);
+    let positions: Vec<[f64; 3]> = own.iter().map(|&sample| position(sample)).collect();
+    let tree = NearestPoints::new(&positions);
     let ring = RING * sparsity(points.len());
-    chart
-        .training
-        .retain(|&sample| tree.distance(&position(sample)) < ring);
+    some.retain(|&sample| tree.distance(&position(sample)) < ring);
 }

@@ -43,9 +43,9 @@ pub(super) struct Search {
 
 impl Search {
     /// Centres whose regions cover the needy samples, the most useful first.
-    pub(super) fn centres(&self, points: &[SurfacePoint], needy: &[bool]) -> Vec<Point3<f64>> {
+    pub(super) fn centres(&self, points: &[SurfacePoint], demand: &[f64]) -> Vec<Point3<f64>> {
         let mut rng = stream(self.seed, Purpose::Charts, self.round);
-        let pool: Vec<usize> = (0..points.len()).filter(|&i| needy[i]).collect();
+        let pool: Vec<usize> = (0..points.len()).filter(|&i| demand[i] > 0.0).collect();
         if pool.is_empty() {
             return Vec::new();
         }
@@ -62,10 +62,7 @@ impl Search {
             .collect();
 
         let few: Vec<SurfacePoint> = chosen.iter().map(|&i| points[i]).collect();
-        let mut left: Vec<f64> = chosen
-            .iter()
-            .map(|&i| if needy[i] { 1.0 } else { 0.0 })
-            .collect();
+        let mut left: Vec<f64> = chosen.iter().map(|&i| demand[i]).collect();
         let mut candidates: Vec<Point3<f64>> = OFFSETS
             .iter()
             .flat_map(|offset| bases.iter().map(move |&base| (offset, base)))

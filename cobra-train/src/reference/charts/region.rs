@@ -3,6 +3,7 @@
 //! Owns the rule by which samples belong to the region around a centre. Which regions are chosen is
 //! `charts::cover`'s question.
 
+use super::asked::Asked;
 use crate::surface::{NearestPoints, SurfacePoint};
 use nalgebra::{Point3, Vector3};
 
@@ -23,6 +24,10 @@ const FOLD_SLACK: f64 = 0.02;
 /// Surface samples and which of them lie side by side.
 pub(super) struct Samples {
     pub(super) points: Vec<SurfacePoint>,
+    /// What charts are chosen for.
+    pub(super) asked: Vec<Asked>,
+    /// Whether a chart explains its members alone, and nothing is asked but the samples.
+    pub(super) members_alone: bool,
     /// The neighbours of sample i are `neighbours[starts[i]..starts[i + 1]]`: each edge both ways.
     starts: Vec<u32>,
     neighbours: Vec<u32>,
@@ -54,6 +59,8 @@ impl Samples {
         }
         Self {
             points,
+            asked: Vec::new(),
+            members_alone: false,
             starts,
             neighbours: edges.into_iter().map(|(_, to)| to).collect(),
             sparsity,

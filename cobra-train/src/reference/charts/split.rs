@@ -51,11 +51,12 @@ fn halves(chart: &Chart, points: &[SurfacePoint]) -> [Chart; 2] {
     [low, high].map(|half| {
         let mut own: Vec<usize> = half.iter().map(|(_, sample)| *sample).collect();
         own.sort_unstable();
-        let mut half = Chart {
+        let mut training = chart.training.clone();
+        keep_around(&mut training, &own, points);
+        Chart {
             own,
+            training,
             ..chart.clone()
-        };
-        keep_around(&mut half, points);
-        half
+        }
     })
 }
