@@ -9,7 +9,7 @@ object_trainings() {
 terms
 few-terms --budget 8704
 maps --mean map
-few-maps --mean map --max-components 11
+few-maps --mean map --budget 12288
 LIST
 }
 

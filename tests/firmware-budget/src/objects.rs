@@ -19,10 +19,10 @@ struct Limits {
 
 /// By the names that `tests/parts/objects.sh` gives them.
 const LIMITS: [Limits; 4] = [
-    limits("terms", 14_336, 11_000.0, 98.0),
+    limits("terms", 14_336, 7_000.0, 98.0),
     limits("few-terms", 8_704, f64::INFINITY, 96.0),
-    limits("maps", 24_576, f64::INFINITY, 98.0),
-    limits("few-maps", 24_576, 1_500.0, 98.0),
+    limits("maps", 24_576, 1_500.0, 98.0),
+    limits("few-maps", 12_288, 1_500.0, 98.0),
 ];
 
 const fn limits(name: &'static str, bytes: u64, per_point: f64, f_score: f64) -> Limits {
