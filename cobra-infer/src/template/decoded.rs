@@ -20,7 +20,7 @@ impl<'a> Template<'a> {
     }
 
     /// The same template, with compact terms decoded into `room`; any other is returned as it is. The
-    /// same bits, in two thirds of the time on a host, for 16 bytes a term.
+    /// same bits, in less time on a host, for 16 bytes a term.
     ///
     /// `None` where `room` is shorter than [`Template::decoded_len`].
     #[must_use]

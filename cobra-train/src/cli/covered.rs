@@ -43,6 +43,9 @@ impl From<&UncoveredRegion> for RegionDocument {
     }
 }
 
+/// With less of the surface covered, somebody may want to know what covers more.
+const LITTLE: f64 = 0.99;
+
 /// The lines below the template's.
 pub(super) fn text(trained: &Trained, template: &Template<'_>) -> String {
     let unit = template.unit().symbol();
@@ -72,6 +75,9 @@ pub(super) fn text(trained: &Trained, template: &Template<'_>) -> String {
             "left out: {}, to fit the budget",
             plural(trained.left_out, "component")
         ));
+    }
+    if trained.covered < LITTLE && template.has_compact_terms() {
+        lines.push("more is covered with --budget none".to_owned());
     }
     if let Some(deviation) = &trained.deviation {
         let how = if template.has_maps() {

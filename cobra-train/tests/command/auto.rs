@@ -144,6 +144,18 @@ fn components_may_be_limited() {
 }
 
 #[test]
+fn where_little_is_covered_it_is_said_what_covers_more() {
+    let scene = Scene::new();
+    let told = |more: &[&str]| {
+        let words = [&TRAIN[..], &FEW, &["--max-components", "1"], more].concat();
+        succeed(scene.arguments(&words)).stdout
+    };
+    let hint = "more is covered with --budget none";
+    assert!(told(&[]).contains(hint));
+    assert!(!told(&["--budget", "none"]).contains(hint));
+}
+
+#[test]
 fn every_kernel_is_compressed() {
     let scene = Scene::new();
     for kernel in [
