@@ -14,14 +14,14 @@ pub(crate) trait Routine {
 
 #[cfg(feature = "wide-vectors")]
 #[inline(always)]
-pub(crate) fn widest<L: Routine>(routine: L) -> L::Output {
-    struct Widest<L>(L);
+pub(crate) fn widest<R: Routine>(routine: R) -> R::Output {
+    struct Widest<R>(R);
 
-    impl<L: Routine> pulp::WithSimd for Widest<L> {
-        type Output = L::Output;
+    impl<R: Routine> pulp::WithSimd for Widest<R> {
+        type Output = R::Output;
 
         #[inline(always)]
-        fn with_simd<S: pulp::Simd>(self, _: S) -> L::Output {
+        fn with_simd<S: pulp::Simd>(self, _: S) -> R::Output {
             self.0.run()
         }
     }
@@ -31,6 +31,6 @@ pub(crate) fn widest<L: Routine>(routine: L) -> L::Output {
 
 #[cfg(not(feature = "wide-vectors"))]
 #[inline(always)]
-pub(crate) fn widest<L: Routine>(routine: L) -> L::Output {
+pub(crate) fn widest<R: Routine>(routine: R) -> R::Output {
     routine.run()
 }

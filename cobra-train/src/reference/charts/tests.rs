@@ -146,6 +146,20 @@ fn the_seed_decides_and_the_number_of_threads_does_not() {
 }
 
 #[test]
+fn where_charts_cost_something_no_sample_is_of_two() {
+    for points in [cube(0.5, 16), open_box(16), two_spheres()] {
+        for aim in [Aim::Bytes, Aim::Time] {
+            let charts = charts(&points, &[], 64, aim, 0).unwrap();
+            let mut all: Vec<usize> = charts.iter().flat_map(|chart| chart.own.clone()).collect();
+            let count = all.len();
+            all.sort_unstable();
+            all.dedup();
+            assert_eq!(all.len(), count, "{aim:?}");
+        }
+    }
+}
+
+#[test]
 fn large_charts_are_split_into_halves_that_own_what_they_owned() {
     let points = two_spheres();
     let whole = charts(&points, &[], 64, Aim::Bytes, 0).unwrap();
