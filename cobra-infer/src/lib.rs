@@ -24,9 +24,10 @@
 //! | [`tolerance`] | every tolerance this crate applies, in one table |
 //! | [`math`] | the only place that knows `libm` |
 //!
-//! The feature `wide-vectors`, off by default and for hosts alone, lets the sum over terms use vectors as wide
-//! as the processor has; the bits stay the same. The features `log` and `defmt`, off by default, tell a logger of templates loaded and refused
+//! The features `log` and `defmt`, off by default, tell a logger of templates loaded and refused
 //! and of each pose's report; with `defmt`, errors, reports and settings are `defmt::Format` too.
+//! With `wide-vectors`, off by default and for hosts alone, the sum over terms uses vectors as wide as
+//! the processor has; the bits stay the same.
 //!
 //! # Example
 //! ```

@@ -77,7 +77,7 @@ pub(super) fn text(trained: &Trained, template: &Template<'_>) -> String {
         ));
     }
     if trained.covered < LITTLE && template.has_compact_terms() {
-        lines.push("more is covered with --budget none".to_owned());
+        lines.push("more may be covered with --budget none".to_owned());
     }
     if let Some(deviation) = &trained.deviation {
         let how = if template.has_maps() {

@@ -82,15 +82,19 @@ pub fn compress(
         if added == 0 {
             break;
         }
-        states
-            .par_iter_mut()
-            .try_for_each(|state| if state.stale { state.solve() } else { Ok(()) })?;
+        solve(&mut states)?;
     }
     whole_rounds(&mut states, terms, most);
+    solve(&mut states)?;
+    Ok(states.iter().map(State::compressed).collect())
+}
+
+/// The weights of those whose directions have changed.
+fn solve(states: &mut [State<'_>]) -> Result<(), NotPositiveDefinite> {
     states
         .par_iter_mut()
-        .try_for_each(|state| if state.stale { state.solve() } else { Ok(()) })?;
-    Ok(states.iter().map(State::compressed).collect())
+        .filter(|state| state.stale)
+        .try_for_each(State::solve)
 }
 
 /// Leaves each component as many directions as fill whole rounds of the accumulators that a sum is

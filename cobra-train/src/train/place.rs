@@ -17,7 +17,7 @@ use nalgebra::Point3;
 pub const PLACEMENTS: usize = 32;
 
 /// Charts are not split into more than so many. Of the screwdriver in 14,336 bytes a point takes 10,985
-/// instructions on an M4F with the 17 charts that it needs, 6,787 with 24 and 6,051 with 28, for 0.05 of F.
+/// instructions on an M4F with the 17 charts that it needs, 6,787 with 24 and 6,051 with 28, for 0.08 of F.
 const ENOUGH: usize = 28;
 
 /// Nor into more than leave each so many bytes: what does not fit is left out, and has to be whole.

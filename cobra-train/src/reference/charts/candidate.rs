@@ -19,7 +19,7 @@ const EXPLAINED: f64 = crate::evaluate::TAU;
 
 /// Charts of fewer samples are none.
 const FEWEST_SEEN: usize = 12;
-const FEWEST_OWNED: usize = 8;
+pub(super) const FEWEST_OWNED: usize = 8;
 const FEWEST_EXPLAINED: usize = 6;
 
 /// The most samples that a chart is fitted to while it is judged.

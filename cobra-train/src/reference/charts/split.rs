@@ -4,6 +4,7 @@
 //! a chart that has many samples has many terms and is asked often.
 
 use super::Chart;
+use super::candidate::FEWEST_OWNED;
 use super::choice::keep_around;
 use crate::surface::SurfacePoint;
 use nalgebra::{Matrix3, Vector3};
@@ -22,7 +23,9 @@ pub fn split(mut charts: Vec<Chart>, points: &[SurfacePoint], most: usize) -> Ve
         let Some((index, size)) = largest else {
             break;
         };
-        if (size as f64) < LARGEST_SHARE * points.len() as f64 {
+        let small = (size as f64) < LARGEST_SHARE * points.len() as f64;
+        // Half of it has to be a chart still: of few points every chart is a large share.
+        if small || size < 2 * FEWEST_OWNED {
             break;
         }
         let [first, second] = halves(&charts[index], points);

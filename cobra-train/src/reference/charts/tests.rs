@@ -181,6 +181,20 @@ fn large_charts_are_split_into_halves_that_own_what_they_owned() {
 }
 
 #[test]
+fn charts_of_few_samples_stay_whole() {
+    let points = sphere(Point3::origin(), 0.5, 40);
+    let whole = Chart {
+        centre: Point3::origin(),
+        own: (0..points.len()).collect(),
+        training: (0..points.len()).collect(),
+        hyperparameters: charts(&two_spheres(), &[], 64, Aim::Bytes, 0).unwrap()[0].hyperparameters,
+    };
+    let pieces = split(vec![whole], &points, 64);
+    assert!(pieces.len() > 1);
+    assert!(pieces.iter().all(|piece| piece.own.len() >= 8));
+}
+
+#[test]
 fn what_nobody_asks_about_takes_no_charts() {
     let samples = two_spheres();
     let asked_often: Vec<SurfacePoint> = sphere(Point3::new(-0.6, 0.0, 0.0), 0.35, 600_000);
