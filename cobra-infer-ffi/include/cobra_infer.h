@@ -423,6 +423,18 @@ enum CobraReason
    * Undecided: the threshold is zero, the tolerance is immense against sigma.
    */
   COBRA_REASON_NO_THRESHOLD = 9,
+  /**
+   * Undecided: something in front hides the object.
+   */
+  COBRA_REASON_HIDDEN = 10,
+  /**
+   * Undecided: no threshold is known, calibrate first.
+   */
+  COBRA_REASON_NOT_CALIBRATED = 11,
+  /**
+   * Undecided: the confidence lies between the thresholds.
+   */
+  COBRA_REASON_BETWEEN_THRESHOLDS = 12,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

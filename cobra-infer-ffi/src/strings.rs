@@ -45,6 +45,9 @@ pub(crate) const fn reason_text(reason: u32) -> &'static CStr {
         7 => c"a number in the input is not finite",
         8 => c"a weight is negative",
         9 => c"the threshold is zero: the tolerance is immense against sigma",
+        10 => c"something in front hides the object",
+        11 => c"no threshold is known: calibrate first",
+        12 => c"confidence between the thresholds",
         _ => c"unknown reason",
     }
 }

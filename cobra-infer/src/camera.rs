@@ -156,6 +156,11 @@ impl Camera {
         ))
     }
 
+    /// The larger of fx and fy.
+    pub(crate) fn largest_focal_length(&self) -> f32 {
+        if self.fx < self.fy { self.fy } else { self.fx }
+    }
+
     /// Puts a pixel with a measured depth back into the object's frame: P̂ = Rᵀ(λK⁻¹p − t).
     ///
     /// `depth` is λ, the measurement along the camera's axis (z-depth, as depth images hold it, not

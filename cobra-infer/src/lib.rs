@@ -73,6 +73,7 @@ pub use nalgebra;
 
 pub mod bound;
 pub mod camera;
+pub mod depth;
 mod error;
 pub mod gp;
 pub mod kernel;

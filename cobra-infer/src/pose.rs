@@ -98,6 +98,50 @@ impl Pose {
     }
 }
 
+impl Pose {
+    /// The pose that sees the object's points where this one would if they had been moved by
+    /// P ↦ Q(P − C) + C + τ the other way round: (R, t)∘A⁻¹ with A that motion, and Q the rotation of Cayley's
+    /// parameters ω/2, which turns by about ‖ω‖ (exactly 2·arctan(‖ω‖/2)). `None` where it is not finite.
+    #[must_use]
+    pub(crate) fn moved_back(
+        &self,
+        [cx, cy, cz]: [f32; 3],
+        [tx, ty, tz]: [f32; 3],
+        omega: [f32; 3],
+    ) -> Option<Self> {
+        let [x, y, z] = omega.map(|w| 0.5 * w);
+        let scale = 1.0 / (1.0 + math::dot([x, y, z], [x, y, z]));
+        let (xx, yy, zz) = (x * x, y * y, z * z);
+        // Rows of Q, of the unit quaternion (1, x, y, z)·√scale.
+        let q = [
+            [1.0 + xx - yy - zz, 2.0 * (x * y - z), 2.0 * (x * z + y)],
+            [2.0 * (x * y + z), 1.0 - xx + yy - zz, 2.0 * (y * z - x)],
+            [2.0 * (x * z - y), 2.0 * (y * z + x), 1.0 - xx - yy + zz],
+        ]
+        .map(|row| row.map(|entry| entry * scale));
+        let m = self.rotation.matrix();
+        // RQᵀ: a row of R times a row of Q.
+        let rows = [
+            [m.m11, m.m12, m.m13],
+            [m.m21, m.m22, m.m23],
+            [m.m31, m.m32, m.m33],
+        ];
+        let [[a, b, c], [d, e, f], [g, h, i]] =
+            rows.map(|row| q.map(|other| math::dot(row, other)));
+        let r = newton_step([a, b, c, d, e, f, g, h, i]);
+        let centre = self.to_camera(&Point3::new(cx, cy, cz));
+        let shifted = [cx + tx, cy + ty, cz + tz];
+        let [a, b, c, d, e, f, g, h, i] = r;
+        let t = [
+            centre.x - math::dot([a, b, c], shifted),
+            centre.y - math::dot([d, e, f], shifted),
+            centre.z - math::dot([g, h, i], shifted),
+        ];
+        let finite = r.iter().chain(&t).all(|entry| entry.is_finite());
+        finite.then(|| Self::unchecked(r, t))
+    }
+}
+
 /// The upper triangle of RᵀR, row by row: the products of R's columns.
 ///
 /// Not by nalgebra's product, which states no order of summation.

@@ -25,6 +25,7 @@
 
 pub mod coverage;
 pub mod demo;
+pub mod depth;
 pub mod evaluate;
 pub mod export;
 pub mod gp;

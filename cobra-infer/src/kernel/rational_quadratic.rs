@@ -89,6 +89,10 @@ impl<T: Real> Covariance<T> for RationalQuadraticFree<T> {
     fn gradient(&self, a: [T; 3], b: [T; 3]) -> [T; 3] {
         let base = T::ONE + squared_distance(a, b) * self.inverse;
         let k = base.power(self.minus_exponent);
-        along(T::TWO * self.minus_exponent * self.inverse * (k / base), a, b)
+        along(
+            T::TWO * self.minus_exponent * self.inverse * (k / base),
+            a,
+            b,
+        )
     }
 }

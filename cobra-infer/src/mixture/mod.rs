@@ -18,6 +18,7 @@ mod reach;
 mod search;
 mod settings;
 mod slabs;
+mod slope;
 mod soft;
 
 use crate::bound;

@@ -282,6 +282,9 @@ pub const fn decision_name(decision: Decision) -> &'static str {
         Decision::Undecided(Doubt::NonFiniteInput) => "non-finite-input",
         Decision::Undecided(Doubt::NegativeWeight) => "negative-weight",
         Decision::Undecided(Doubt::NoThreshold) => "no-threshold",
+        Decision::Undecided(Doubt::Hidden) => "hidden",
+        Decision::Undecided(Doubt::NotCalibrated) => "not-calibrated",
+        Decision::Undecided(Doubt::BetweenThresholds) => "between-thresholds",
     }
 }
 

@@ -274,6 +274,9 @@ const fn decision_number(decision: Decision) -> u32 {
         Decision::Undecided(Doubt::NonFiniteInput) => 6,
         Decision::Undecided(Doubt::NegativeWeight) => 7,
         Decision::Undecided(Doubt::NoThreshold) => 8,
+        Decision::Undecided(Doubt::Hidden) => 9,
+        Decision::Undecided(Doubt::NotCalibrated) => 10,
+        Decision::Undecided(Doubt::BetweenThresholds) => 11,
     }
 }
 

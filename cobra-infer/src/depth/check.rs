@@ -1,0 +1,282 @@
+//! The check of one pose.
+//!
+//! Owns the order of what is done and which pixels are used; each part has a file of its own.
+
+use super::error::DepthError;
+use super::observed::{DepthImage, DepthPixel};
+use super::refine::Equations;
+use super::report::DepthReport;
+use super::reverse::{Evidence, Sight, look_up};
+use super::settings::DepthSettings;
+use super::surface::{Surface, TemplateSurface};
+use super::zbuffer::{Cell, Window, ZBuffer};
+use crate::camera::Camera;
+use crate::math::Real;
+use crate::pose::Pose;
+use crate::template::Template;
+use nalgebra::Point3;
+
+/// Points of the surface lie this share of a cell of the depth buffer apart, at the object's middle: closer
+/// to the camera cells are smaller, and where they lie sideways they cover less.
+const POINTS_PER_CELL: f32 = 0.7;
+
+/// The displacement is a mean over points of the surface this share of the radius apart.
+const DISPLACEMENT_SPACING: f32 = 0.25;
+
+/// Which pixels show the object.
+#[derive(Clone, Copy, Debug)]
+pub enum Observed<'a> {
+    /// These: what a mask says.
+    Pixels(&'a [DepthPixel]),
+    /// Those in which the pose itself says that it is seen, and nothing else hides it.
+    Silhouette,
+}
+
+/// Checks poses of one surface, seen by one camera.
+#[derive(Clone, Debug)]
+pub struct DepthCheck<'s, S> {
+    surface: &'s S,
+    camera: Camera,
+    settings: DepthSettings,
+}
+
+impl<'s, S: Surface> DepthCheck<'s, S> {
+    /// Takes the settings but for their noise, which the surface brings with it.
+    ///
+    /// # Errors
+    /// [`DepthError`] where a setting is out of its range.
+    pub fn new(
+        surface: &'s S,
+        camera: &Camera,
+        settings: &DepthSettings,
+    ) -> Result<Self, DepthError> {
+        settings.check()?;
+        Ok(Self {
+            surface,
+            camera: *camera,
+            settings: *settings,
+        })
+    }
+
+    /// Checks a pose; `cells` is scratch memory, at least [`DepthSettings::cells`] of them, whatever they
+    /// hold. `alive` is called now and then, at least once every 64 pixels or points: where a watchdog can
+    /// be fed.
+    ///
+    /// # Errors
+    /// [`DepthError::Cells`] where the scratch memory is too small.
+    pub fn run(
+        &self,
+        pose: &Pose,
+        observed: Observed<'_>,
+        image: &impl DepthImage,
+        cells: &mut [Cell],
+        alive: &mut impl FnMut(),
+    ) -> Result<DepthReport, DepthError> {
+        let (expected, found) = (self.settings.cells(), cells.len());
+        let cells = cells
+            .get_mut(..expected)
+            .ok_or(DepthError::Cells { expected, found })?;
+        let noise = self.surface.noise();
+        let mut report = DepthReport::behind_camera(pose, noise);
+        let Some(window) = self.window(pose) else {
+            report.depth_ratio = self.depth_ratio(pose, observed);
+            return Ok(report);
+        };
+        let buffer = self.visible(pose, window, cells, alive);
+        let mut evidence = Evidence::default();
+        for visible in buffer.visible() {
+            evidence.add(&visible, look_up(image, &visible, noise), noise);
+        }
+        report.take(&evidence);
+        let pixels = Pixels {
+            observed,
+            buffer: &buffer,
+            image,
+            noise,
+        };
+        self.refine(pose, &pixels, &mut report, alive);
+        report.conclude(&self.settings);
+        Ok(report)
+    }
+
+    /// What the observed pixels say of the depth of an object that nothing can be said of otherwise.
+    fn depth_ratio(&self, pose: &Pose, observed: Observed<'_>) -> f32 {
+        let Observed::Pixels(pixels) = observed else {
+            return 0.0;
+        };
+        let [x, y, z] = self.surface.centre();
+        let expected = pose.to_camera(&Point3::new(x, y, z)).z;
+        let mut evidence = Evidence::default();
+        for pixel in pixels.iter().filter(|pixel| pixel.depth > 0.0) {
+            evidence.compare(pixel.depth, expected);
+        }
+        evidence.depth_ratio()
+    }
+
+    /// The square around the projected bounding sphere, and the depths it lies between; `None` where it
+    /// reaches behind the camera.
+    fn window(&self, pose: &Pose) -> Option<Window> {
+        let [x, y, z] = self.surface.centre();
+        let middle = pose.to_camera(&Point3::new(x, y, z));
+        let radius = self.surface.radius();
+        let near = middle.z - radius;
+        let pixel = self.camera.project(&middle)?;
+        // Also what is not finite is not in front of the camera.
+        (near > 0.0 && near.is_finite()).then(|| Window {
+            middle: pixel,
+            half: self.camera.largest_focal_length() * radius / near,
+            near,
+            range: 2.0 * radius,
+        })
+    }
+
+    fn visible<'m>(
+        &self,
+        pose: &Pose,
+        window: Window,
+        cells: &'m mut [Cell],
+        alive: &mut impl FnMut(),
+    ) -> ZBuffer<'m> {
+        let mut buffer = ZBuffer::new(cells, self.settings.side, window, self.surface.diameter());
+        let cell = 2.0 * self.surface.radius() / f32::from(self.settings.side);
+        let mut count = 0_u32;
+        self.surface.sample(POINTS_PER_CELL * cell, &mut |point| {
+            feed(&mut count, alive);
+            let seen = pose.to_camera(point);
+            if let Some(pixel) = self.camera.project(&seen) {
+                buffer.insert(pixel, seen.z);
+            }
+        });
+        buffer
+    }
+
+    /// The first look at all pixels gives the forward likelihood; the steps then look at some of them.
+    fn refine(
+        &self,
+        pose: &Pose,
+        pixels: &Pixels<'_, impl DepthImage>,
+        report: &mut DepthReport,
+        alive: &mut impl FnMut(),
+    ) {
+        let mut equations = self.equations(pose, pixels, 1, alive);
+        report.pixels = equations.count();
+        report.silent = equations.silent();
+        report.forward = equations.likelihood();
+        let every = report
+            .pixels
+            .div_ceil(u32::from(self.settings.step_pixels))
+            .max(1);
+        if every > 1 {
+            equations = self.equations(pose, pixels, every, alive);
+        }
+        for _ in 0..self.settings.steps {
+            let Some(next) = equations.step(&report.refined) else {
+                break;
+            };
+            report.refined = next;
+            equations = self.equations(&next, pixels, every, alive);
+        }
+        report.residual = equations.residual();
+        report.displacement = self.displacement(pose, &report.refined, alive);
+    }
+
+    fn equations(
+        &self,
+        pose: &Pose,
+        pixels: &Pixels<'_, impl DepthImage>,
+        every: u32,
+        alive: &mut impl FnMut(),
+    ) -> Equations {
+        let mut equations = Equations::new(self.surface);
+        let mut count = 0_u32;
+        pixels.each(every, &mut |pixel| {
+            feed(&mut count, alive);
+            let point = self
+                .camera
+                .back_project_depth(pose, &pixel.pixel(), pixel.depth);
+            // What is infinitely far away lies on no surface.
+            let nearby = point.and_then(|point| Some((point, self.surface.nearby(&point)?)));
+            equations.add(nearby);
+        });
+        equations
+    }
+
+    /// ADD between two poses, over points of the surface.
+    fn displacement(&self, pose: &Pose, refined: &Pose, alive: &mut impl FnMut()) -> f32 {
+        let (mut sum, mut count) = (0.0_f32, 0_u32);
+        let spacing = DISPLACEMENT_SPACING * self.surface.radius();
+        self.surface.sample(spacing, &mut |point| {
+            feed(&mut count, alive);
+            let (a, b) = (pose.to_camera(point), refined.to_camera(point));
+            let moved = [a.x - b.x, a.y - b.y, a.z - b.z];
+            sum += crate::math::dot(moved, moved).square_root();
+        });
+        sum / count.max(1) as f32
+    }
+}
+
+/// Counts, and calls on every 64th.
+#[inline]
+fn feed(count: &mut u32, alive: &mut impl FnMut()) {
+    *count = count.saturating_add(1);
+    if count.is_multiple_of(64) {
+        alive();
+    }
+}
+
+/// The observed pixels, wherever they come from.
+struct Pixels<'a, I> {
+    observed: Observed<'a>,
+    buffer: &'a ZBuffer<'a>,
+    image: &'a I,
+    noise: f32,
+}
+
+impl<I: DepthImage> Pixels<'_, I> {
+    /// Every so many-th that has a depth.
+    fn each(&self, every: u32, act: &mut impl FnMut(&DepthPixel)) {
+        let mut next = 0_u32;
+        let mut take = |pixel: &DepthPixel| {
+            if pixel.depth.is_nan() || pixel.depth <= 0.0 {
+                return;
+            }
+            if next == 0 {
+                act(pixel);
+                next = every;
+            }
+            next = next.saturating_sub(1);
+        };
+        match self.observed {
+            Observed::Pixels(pixels) => pixels.iter().for_each(take),
+            Observed::Silhouette => {
+                for visible in self.buffer.visible() {
+                    if let Sight::Measured(pixel, _) = look_up(self.image, &visible, self.noise) {
+                        take(&pixel);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Checks one pose of a template of at most `COMPONENTS` components.
+///
+/// # Errors
+/// [`DepthError`]: a setting out of its range, a template without validity or with too many components, too
+/// little memory.
+pub fn check_depth<const COMPONENTS: usize>(
+    template: &Template<'_>,
+    camera: &Camera,
+    pose: &Pose,
+    settings: &DepthSettings,
+    observed: Observed<'_>,
+    image: &impl DepthImage,
+    cells: &mut [Cell],
+) -> Result<DepthReport, DepthError> {
+    let [x, y, z] = template.centre();
+    let depth = pose.to_camera(&Point3::new(x, y, z)).z;
+    let noise = settings.noise.at(template.diameter(), depth)?;
+    let surface = TemplateSurface::<COMPONENTS>::new(template, noise)?;
+    let check = DepthCheck::new(&surface, camera, settings)?;
+    check.run(pose, observed, image, cells, &mut || {})
+}
