@@ -204,6 +204,7 @@ fn check(r: [f32; 9], t: [f32; 3], tolerance: f32) -> Result<(), PoseError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Real;
 
     const QUARTER_TURN: [f32; 9] = [0., -1., 0., 1., 0., 0., 0., 0., 1.];
 
@@ -250,6 +251,29 @@ mod tests {
             Err(PoseError::NotARotation { .. })
         ));
         assert!(Pose::from_row_major(QUARTER_TURN, [0., f32::INFINITY, 0.]).is_err());
+    }
+
+    #[test]
+    fn a_pose_moved_back_sees_the_moved_points_where_it_saw_them() {
+        let pose = Pose::from_row_major(QUARTER_TURN, [5., 6., 700.]).unwrap();
+        let (centre, shift, omega) = ([10., -4., 3.], [0.5, 2., -1.], [0.1, -0.3, 0.2]);
+        let moved = pose.moved_back(centre, shift, omega).unwrap();
+        let r = moved.rotation().matrix();
+        assert!((r.transpose() * r - Matrix3::identity()).norm() < 1e-6);
+        // The motion A: a turn about the centre by 2·arctan(‖ω‖/2), then the shift.
+        let omega = Vector3::from(omega);
+        let angle = 2.0 * (0.5 * omega.norm()).arctangent(1.0);
+        let turn = Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(omega), angle);
+        let (centre, shift) = (Point3::from(centre), Vector3::from(shift));
+        for point in [Point3::new(1., 2., 3.), Point3::new(-40., 9., 25.)] {
+            let there = centre + turn * (point - centre) + shift;
+            let seen = pose.to_camera(&point);
+            assert!((moved.to_camera(&there) - seen).norm() < 1e-3);
+        }
+        assert!(
+            pose.moved_back([0.; 3], [f32::NAN, 0., 0.], [0.; 3])
+                .is_none()
+        );
     }
 
     #[test]

@@ -7,6 +7,7 @@
 mod charts;
 mod content;
 mod decisions;
+mod depth;
 mod geometry;
 mod hostile_input;
 mod invariance;
