@@ -133,6 +133,14 @@ impl Camera {
         }
     }
 
+    /// K, row-major: what [`Camera::from_matrix`] takes.
+    #[must_use]
+    pub fn to_matrix(&self) -> [f32; 9] {
+        [
+            self.fx, self.skew, self.cx, 0.0, self.fy, self.cy, 0.0, 0.0, 1.0,
+        ]
+    }
+
     /// K⁻¹p: the ray through a pixel, scaled to z = 1.
     #[must_use]
     #[inline(always)]
@@ -212,6 +220,12 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_matrix_is_the_one_that_was_given() {
+        let k = [420., 0.7, 310., 0., 430., 250., 0., 0., 1.];
+        assert_eq!(Camera::from_matrix(k).unwrap().to_matrix(), k);
+    }
 
     #[test]
     fn a_projected_point_comes_back_to_where_it_was() {

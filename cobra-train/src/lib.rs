@@ -4,7 +4,8 @@
 //! reference points, [`gp`] fits a Gaussian process around each, [`mod@train`] puts them together and
 //! hands them to `cobra-infer`'s encoder. [`mod@evaluate`] measures the result with the scorer's own
 //! code, [`export`] makes source text of it. [`input`] reads cameras, poses and correspondences,
-//! [`pose`] simulates them, [`demo`] shows the whole. The command `cobra` is a thin layer over this
+//! [`pose`] simulates them, [`bop`] reads data sets and results of the BOP benchmark, [`demo`] shows
+//! the whole. The command `cobra` is a thin layer over this
 //! library.
 //!
 //! # Example
@@ -23,14 +24,17 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod bop;
 pub mod coverage;
 pub mod demo;
 pub mod depth;
+pub mod depth_image;
 pub mod evaluate;
 pub mod export;
 pub mod gp;
 pub mod input;
 pub mod output;
+pub mod pixel_mask;
 pub mod pose;
 pub mod progress;
 pub mod random;

@@ -7,10 +7,11 @@ mod camera;
 mod correspondences;
 mod estimates;
 mod image_id;
-mod json;
+pub(crate) mod json;
 mod scale;
 mod text;
 
+pub(crate) use camera::image_camera;
 pub use camera::{CameraFile, ImageCamera, ImageSize, ReadCameraError, read_camera};
 pub use correspondences::{
     CorrespondenceOptions, ReadCorrespondencesError, Weighting, read_correspondences,

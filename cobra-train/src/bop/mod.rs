@@ -1,0 +1,11 @@
+//! The BOP benchmark's files (T. Hodaň et al., BOP: Benchmark for 6D Object Pose Estimation, ECCV
+//! 2018): data sets, results, and what follows from them before anything is scored.
+//!
+//! Owns names, units and keys of these files, the symmetries that `models_info.json` states, and depth
+//! rendered from true poses where a data set has none. Lengths are millimetres throughout. Does not own
+//! errors of poses ([`crate::pose`]) nor the score.
+
+pub mod dataset;
+pub mod render;
+pub mod results;
+pub mod symmetry;
