@@ -49,6 +49,20 @@ impl DepthImage {
     }
 }
 
+impl cobra_infer::depth::DepthImage for DepthImage {
+    fn width(&self) -> u16 {
+        u16::try_from(self.size.width).unwrap_or(u16::MAX)
+    }
+
+    fn height(&self) -> u16 {
+        u16::try_from(self.size.height).unwrap_or(u16::MAX)
+    }
+
+    fn depth(&self, column: u16, row: u16) -> Option<f32> {
+        self.at(u32::from(column), u32::from(row))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

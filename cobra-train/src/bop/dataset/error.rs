@@ -98,6 +98,12 @@ pub enum DatasetError {
         /// The objects that have one.
         known: String,
     },
+    /// A model is a cloud of points, where its surface is needed.
+    #[error("{}: expected a mesh, found points without faces", path.display())]
+    NoFaces {
+        /// The file.
+        path: PathBuf,
+    },
     /// A model cannot be used.
     #[error(transparent)]
     Model(#[from] ReadMeshError),

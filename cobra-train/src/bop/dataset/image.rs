@@ -32,6 +32,28 @@ pub(super) fn read_mask(path: &Path, size: ImageSize) -> Result<PixelMask, Datas
     ))
 }
 
+/// The mask of an annotated object in a folder of masks: `SSSSSS/mask_visib/IIIIII_GGGGGG.png`, as below a
+/// split of a data set, or `SSSSSS/IIIIII_GGGGGG.png`.
+///
+/// # Errors
+/// [`DatasetError`]: no such file, another size than `size`, or no 8-bit grey PNG.
+pub fn mask_in(
+    folder: &Path,
+    scene: u32,
+    image: u32,
+    annotation: usize,
+    size: ImageSize,
+) -> Result<PixelMask, DatasetError> {
+    let scene = folder.join(format!("{scene:06}"));
+    let name = format!("{image:06}_{annotation:06}.png");
+    let path = scene.join("mask_visib").join(&name);
+    let beside = scene.join(name);
+    if beside.exists() {
+        return read_mask(&beside, size);
+    }
+    read_mask(&path, size)
+}
+
 /// The size that an image's header states.
 pub(super) fn size_of(path: &Path) -> Result<ImageSize, DatasetError> {
     let reader = open(path, || "a PNG image".to_owned())?;

@@ -12,6 +12,7 @@ mod scene;
 mod tests;
 
 pub use error::DatasetError;
+pub use image::mask_in;
 pub use models::{ModelInfo, Models};
 pub use scene::{Annotation, Scene};
 
