@@ -26,7 +26,7 @@
 //! assert_eq!(states[2], TrackingState::Tracking);
 //! // A single bad frame does not lose it; on every target these bits.
 //! assert_eq!(tracker.update(Some(0.125)), TrackingState::Tracking);
-//! assert_eq!(tracker.smoothed().map(f32::to_bits), Some(0x3f29_b9fb));
+//! assert_eq!(tracker.smoothed().map(f32::to_bits), Some(0x3f29_92f2));
 //! // A frame in which nothing lies on the object does.
 //! assert_eq!(tracker.update(Some(0.0)), TrackingState::Lost(Loss::NoSupport));
 //! # Ok(()) }

@@ -111,6 +111,13 @@ pub struct DepthSource<'a> {
 }
 
 impl<'a> DepthRecord<'a> {
+    /// σ_m as a share of the diameter, for templates that do not say theirs.
+    ///
+    /// On 1,350 estimates of three estimators on LineMOD-Occlusion, simulated depth of 1.5 mm noise, the
+    /// confidence from both directions separates right from wrong poses better with 8 % of the diameter
+    /// (AUC 0.961, rank correlation −0.922) than with 4 % (0.956, −0.912).
+    pub const NOISE_SHARE: f32 = 0.08;
+
     /// Where the calibration comes from, in words; of bytes that are no UTF-8, what there is before the
     /// first such byte. Loading does not look at it, as at [`super::Template::name`].
     #[must_use]
