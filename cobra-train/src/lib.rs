@@ -3,8 +3,10 @@
 //! From a mesh to a template: [`surface`] reads it and draws points on it, [`mod@reference`] places
 //! reference points, [`gp`] fits a Gaussian process around each, [`mod@train`] puts them together and
 //! hands them to `cobra-infer`'s encoder. [`mod@evaluate`] measures the result with the scorer's own
-//! code, [`export`] makes source text of it. [`input`] reads cameras, poses and correspondences,
 //! [`pose`] simulates them, [`bop`] reads data sets and results of the BOP benchmark, [`demo`] shows
+//! [`pose`] simulates them, [`demo`] shows the whole. The command `cobra` is a thin layer over this
+//! code, [`calibrate`] finds the thresholds for a false-accept rate, [`export`] makes source text of it. [`input`] reads cameras, poses and correspondences,
+//! code, [`export`] makes source text of it. [`input`] reads cameras, poses and correspondences,
 //! the whole. The command `cobra` is a thin layer over this
 //! library.
 //!
@@ -25,6 +27,7 @@
 #![forbid(unsafe_code)]
 
 pub mod bop;
+pub mod calibrate;
 pub mod coverage;
 pub mod demo;
 pub mod depth;

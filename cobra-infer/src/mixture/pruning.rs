@@ -88,6 +88,7 @@ fn encoded(parts: &[Part], centre: [f32; 3]) -> Vec<u8> {
         model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
         components: &components,
         quality: None,
+        depth: None,
     };
     let mut bytes = vec![0; encoded_len(&source)];
     let length = encode(&source, &mut bytes).unwrap();

@@ -1,5 +1,6 @@
 //! The arguments of `cobra`, with the help that goes with them.
 
+use super::calibrate::CalibrateArguments;
 use super::choices::{
     AssignmentArgument, BudgetArgument, ExponentArgument, ExportFormat, KernelArgument,
     LikelihoodArgument, MeanArgument, MetricArgument, SamplingArgument, ThresholdArgument,
@@ -51,6 +52,8 @@ pub(crate) enum Command {
     Score(ScoreArguments),
     /// Measure how well a template reproduces a mesh or a point cloud
     Eval(EvalArguments),
+    /// Find the thresholds for a false-accept rate on labelled estimates, and store them in a template
+    Calibrate(CalibrateArguments),
     /// Show what is in a template, its size and its cost
     Inspect(InspectArguments),
     /// Write a template as a file, as Rust or as C, for firmware that keeps it in flash

@@ -1,7 +1,9 @@
 //! What ends the command early, and the exit code that says so.
 
 use cobra_infer::{ScoreError, TemplateError};
-use cobra_train::input::{ReadCameraError, ReadCorrespondencesError, ReadEstimatesError};
+use cobra_train::input::{
+    ReadCameraError, ReadCorrespondencesError, ReadEstimatesError, ReadReportError,
+};
 use cobra_train::output::WriteError;
 use cobra_train::reference::ReadReferencePointsError;
 use cobra_train::surface::ReadMeshError;
@@ -93,6 +95,13 @@ impl From<ReadCorrespondencesError> for Failure {
     fn from(error: ReadCorrespondencesError) -> Self {
         let io =
             matches!(&error, ReadCorrespondencesError::Io { source, .. } if !is_content(source));
+        classify(io, &error)
+    }
+}
+
+impl From<ReadReportError> for Failure {
+    fn from(error: ReadReportError) -> Self {
+        let io = matches!(&error, ReadReportError::Io { source, .. } if !is_content(source));
         classify(io, &error)
     }
 }

@@ -4,6 +4,7 @@
 //! another program could want is in the library.
 
 mod args;
+mod calibrate;
 mod choices;
 mod coverage;
 mod covered;
@@ -36,6 +37,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Train(arguments) => train::run(arguments, &terminal),
         Command::Score(arguments) => score::run(arguments, &terminal),
         Command::Eval(arguments) => eval::run(arguments, &terminal),
+        Command::Calibrate(arguments) => calibrate::run(arguments, &terminal),
         Command::Inspect(arguments) => inspect::run(arguments, &terminal),
         Command::Export(arguments) => export::run(arguments, &terminal),
         Command::Completions { shell } => {

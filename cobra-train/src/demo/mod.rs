@@ -13,7 +13,7 @@ mod render;
 mod scatter;
 mod simulate;
 mod solid;
-mod style;
+pub(crate) mod style;
 
 pub use camera::Camera;
 pub use image::RgbImage;

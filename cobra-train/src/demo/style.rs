@@ -21,10 +21,10 @@ pub(super) const fn px(length: i32) -> i32 {
     length * SUPERSAMPLING
 }
 
-pub(super) const PAPER: RGBColor = RGBColor(255, 255, 255);
-pub(super) const INK: RGBColor = RGBColor(28, 32, 40);
-pub(super) const QUIET: RGBColor = RGBColor(92, 98, 110);
-pub(super) const HAIRLINE: RGBColor = RGBColor(226, 229, 234);
+pub(crate) const PAPER: RGBColor = RGBColor(255, 255, 255);
+pub(crate) const INK: RGBColor = RGBColor(28, 32, 40);
+pub(crate) const QUIET: RGBColor = RGBColor(92, 98, 110);
+pub(crate) const HAIRLINE: RGBColor = RGBColor(226, 229, 234);
 
 pub(super) type Page<'a> = DrawingArea<Canvas<'a>, Shift>;
 pub(super) type Drawn = Result<(), DrawingAreaErrorKind<Infallible>>;
@@ -32,7 +32,7 @@ pub(super) type Drawn = Result<(), DrawingAreaErrorKind<Infallible>>;
 impl Verdict {
     pub(super) const ALL: [Self; 3] = [Self::Accept, Self::Undecided, Self::Reject];
 
-    pub(super) fn colour(self) -> RGBColor {
+    pub(crate) fn colour(self) -> RGBColor {
         match self {
             Self::Accept => RGBColor(0, 124, 118),
             Self::Undecided => RGBColor(104, 110, 124),
@@ -41,7 +41,7 @@ impl Verdict {
     }
 
     /// What lies behind a panel: a breath of the decision's colour.
-    pub(super) fn background(self) -> [u8; 3] {
+    pub(crate) fn background(self) -> [u8; 3] {
         match self {
             Self::Accept => [238, 248, 247],
             Self::Undecided => [243, 244, 246],

@@ -255,6 +255,7 @@ impl Frame<'_> {
             model: self.options.fit.model,
             components: &components,
             quality,
+            depth: None,
         };
         let mut bytes = vec![0; encoded_len(&source)];
         let length = encode(&source, &mut bytes)?;

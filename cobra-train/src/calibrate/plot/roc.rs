@@ -1,0 +1,38 @@
+//! The roc as SVG.
+
+use super::super::{Roc, Thresholds};
+use super::{BEYOND, Frame, PlotError, curve, dashed, estimates, interval, percent, threshold};
+use crate::demo::style::QUIET;
+use plotters::style::text_anchor::{HPos, VPos};
+
+/// The curve with the threshold to accept on it; the diagonal is what guessing comes to.
+///
+/// # Errors
+/// [`PlotError`] where the picture cannot be drawn.
+pub fn roc_svg(roc: &Roc, thresholds: &Thresholds) -> Result<String, PlotError> {
+    let frame = Frame {
+        title: "ROC: right against wrong estimates that are accepted",
+        subtitle: &format!("area {:.4}; {}", roc.area, estimates(thresholds)),
+        across: "share of wrong estimates accepted (false-accept rate)",
+        up: "share of right estimates accepted",
+        room: (BEYOND, BEYOND),
+    };
+    frame.svg(|chart| {
+        dashed(chart, [(0.0, 0.0), (1.0, 1.0)], QUIET)?;
+        let points = roc.points.iter();
+        curve(
+            chart,
+            points.map(|point| (point.false_accepts.share(), point.true_accepts.share())),
+        )?;
+        let (wrong, right) = (thresholds.false_accepts, thresholds.true_accepts);
+        let at = (wrong.share(), right.share());
+        let lines = [
+            format!("accepted from {:.3} on:", thresholds.accept),
+            format!("{} of wrong ones ({})", percent(wrong), interval(wrong)),
+            format!("{} of right ones", percent(right)),
+        ];
+        let up = if at.1 < 0.15 { VPos::Bottom } else { VPos::Top };
+        let across = if at.0 < 0.5 { HPos::Left } else { HPos::Right };
+        threshold(chart, at, (across, up), lines)
+    })
+}

@@ -1,0 +1,66 @@
+//! The arguments of `cobra calibrate`.
+
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The report is what cobra bop score --report writes, of the same templates and \
+                  settings that will score on the robot: its estimates, their confidences, and which \
+                  of them are right; its errors are in mm. Wrong estimates reach the threshold to accept \
+                  at most at the share given; the interval of that share, from low to high, is Wilson's at \
+                  95 %. Estimates of all objects are taken together unless --object names one.\n\n\
+                  Examples:\n  cobra calibrate part.cobra --labelled report.json --false-accept \
+                  0.01\n  cobra calibrate part.cobra --labelled report.json --false-accept 0.005 \
+                  --object 5 --curves curves -o calibrated.cobra"
+)]
+pub(crate) struct CalibrateArguments {
+    /// Template file that the thresholds are stored in
+    #[arg(value_name = "FILE.cobra")]
+    pub(crate) template: PathBuf,
+
+    /// Report of scored estimates with their truth
+    #[arg(long, value_name = "REPORT.json")]
+    pub(crate) labelled: PathBuf,
+
+    /// Share of the wrong estimates that may be accepted, above 0 and below 1
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub(crate) false_accept: f64,
+
+    /// Share of the right estimates that may be rejected; between the thresholds the answer is undecided
+    /// [default: that of --false-accept]
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub(crate) reject_right: Option<f64>,
+
+    /// Take the estimates of this object alone
+    #[arg(long, value_name = "ID")]
+    pub(crate) object: Option<u64>,
+
+    /// With fewer valid pixels an estimate is undecided; such estimates are left out
+    #[arg(long, value_name = "N", default_value_t = cobra_infer::Settings::MINIMUM_POINTS)]
+    pub(crate) min_points: u32,
+
+    /// Where the thresholds come from, in words, at most 48 bytes [default: the dataset's name, else
+    /// the report's]
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) provenance: Option<String>,
+
+    /// Folder for roc.svg, precision-recall.svg and reliability.svg; made if missing
+    #[arg(long, value_name = "DIR")]
+    pub(crate) curves: Option<PathBuf>,
+
+    /// Template file to write [default: FILE.cobra itself]
+    #[arg(short, long, value_name = "OUT.cobra")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Write what was found as JSON, `-` for standard output
+    #[arg(long, value_name = "FILE|-")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(share) if share > 0.0 && share < 1.0 => Ok(share),
+        _ => Err("expected a share above 0 and below 1, such as 0.01 for 1 %".to_owned()),
+    }
+}

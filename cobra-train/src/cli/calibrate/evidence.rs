@@ -1,0 +1,117 @@
+//! The labelled estimates that thresholds are found on, and where they come from.
+
+use super::CalibrateArguments;
+use crate::cli::failure::Failure;
+use crate::cli::report::plural;
+use crate::cli::terminal::Terminal;
+use cobra_infer::template::{CalibrationSource, PROVENANCE_CAPACITY};
+use cobra_train::calibrate::Labelled;
+use cobra_train::input::{ReportedEstimate, ScoreReport, read_score_report};
+use std::path::Path;
+
+/// What thresholds are found on.
+pub(super) struct Evidence {
+    pub(super) labelled: Vec<Labelled>,
+    pub(super) left_out: LeftOut,
+    pub(super) source: CalibrationSource,
+    /// Where it comes from, in words that fit into a template.
+    pub(super) provenance: String,
+}
+
+/// How many estimates say nothing, and why.
+#[derive(Clone, Copy, Default)]
+pub(super) struct LeftOut {
+    pub(super) other_objects: usize,
+    pub(super) not_scored: usize,
+    pub(super) without_truth: usize,
+    pub(super) too_few_pixels: usize,
+}
+
+/// The estimates that the arguments ask for.
+pub(super) fn evidence(
+    arguments: &CalibrateArguments,
+    terminal: &Terminal,
+) -> Result<Evidence, Failure> {
+    let path = &arguments.labelled;
+    let report = read_score_report(path)?;
+    let (labelled, left_out) = select(&report.estimates, arguments, path)?;
+    for (count, why) in [
+        (left_out.other_objects, "of another object"),
+        (left_out.not_scored, "without a score"),
+        (left_out.without_truth, "without truth"),
+        (left_out.too_few_pixels, "with too few valid pixels"),
+    ] {
+        if count > 0 {
+            terminal.say(&format!("{} {why} left out", plural(count, "estimate")));
+        }
+    }
+    Ok(Evidence {
+        labelled,
+        left_out,
+        source: CalibrationSource::Labelled,
+        provenance: provenance(arguments, &report)?,
+    })
+}
+
+fn select(
+    estimates: &[ReportedEstimate],
+    arguments: &CalibrateArguments,
+    path: &Path,
+) -> Result<(Vec<Labelled>, LeftOut), Failure> {
+    let mut left_out = LeftOut::default();
+    let mut labelled = Vec::with_capacity(estimates.len());
+    for estimate in estimates {
+        if arguments.object.is_some_and(|id| id != estimate.object) {
+            left_out.other_objects += 1;
+            continue;
+        }
+        match (estimate.right, estimate.scored) {
+            (None, _) => left_out.without_truth += 1,
+            (_, None) => left_out.not_scored += 1,
+            (_, Some(scored)) if scored.valid_pixels < arguments.min_points => {
+                left_out.too_few_pixels += 1;
+            }
+            (Some(right), Some(scored)) => labelled.push(Labelled {
+                confidence: scored.confidence,
+                right,
+            }),
+        }
+    }
+    let of_object = estimates.len() - left_out.other_objects;
+    let refuse = |what: &str| Err(Failure::BadInput(format!("{}: {what}", path.display())));
+    match arguments.object {
+        _ if estimates.is_empty() => refuse("the report holds no estimate"),
+        Some(id) if of_object == 0 => refuse(&format!("no estimate is of object {id}")),
+        _ if left_out.without_truth == of_object => refuse(
+            "no estimate has a truth to be right or wrong by: score with the dataset's ground truth",
+        ),
+        _ => Ok((labelled, left_out)),
+    }
+}
+
+fn provenance(arguments: &CalibrateArguments, report: &ScoreReport) -> Result<String, Failure> {
+    if let Some(text) = &arguments.provenance {
+        return if text.len() <= PROVENANCE_CAPACITY {
+            Ok(text.clone())
+        } else {
+            Err(Failure::Usage(format!(
+                "--provenance has {} bytes, at most {PROVENANCE_CAPACITY} fit into a template",
+                text.len()
+            )))
+        };
+    }
+    let mut text = match &report.dataset {
+        Some(name) => name.clone(),
+        None => {
+            let name = arguments.labelled.file_name().unwrap_or_default();
+            name.to_string_lossy().into_owned()
+        }
+    };
+    if let Some(id) = arguments.object {
+        text = format!("{text}, object {id}");
+    }
+    while text.len() > PROVENANCE_CAPACITY {
+        text.pop();
+    }
+    Ok(text)
+}
