@@ -4,6 +4,7 @@
 //! depth; `docs/DEPTH.md` says what others come to.
 
 use super::error::DepthError;
+use crate::template::{DepthRecord, Template};
 
 /// The standard deviation σ_m that measurements are granted beside the template's own σ̂.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,10 +77,6 @@ pub struct DepthSettings {
 }
 
 impl DepthSettings {
-    /// σ_m as a share of the diameter. 6 % to 8 % order poses best; with 10 % and more, small errors are not
-    /// told from none.
-    pub const NOISE_SHARE: f32 = 0.08;
-
     /// Depth buffers of fewer cells along a side show too little of the object.
     pub const SMALLEST_SIDE: u16 = 8;
 
@@ -89,13 +86,32 @@ impl DepthSettings {
     /// 8 % of the diameter, a buffer of 32² cells, four steps on 150 pixels, at least ten points, and no
     /// thresholds.
     pub const DEFAULT: Self = Self {
-        noise: Noise::Share(Self::NOISE_SHARE),
+        noise: Noise::Share(DepthRecord::NOISE_SHARE),
         thresholds: None,
         minimum_points: 10,
         side: 32,
         steps: 4,
         step_pixels: 150,
     };
+
+    /// What the template knows: its σ_m, and its thresholds where it was calibrated; the rest as in
+    /// [`DepthSettings::DEFAULT`].
+    #[must_use]
+    pub fn for_template(template: &Template<'_>) -> Self {
+        let mut settings = Self::DEFAULT;
+        let Some(record) = template.depth() else {
+            return settings;
+        };
+        settings.noise = Noise::Share(record.noise_share);
+        if let Some(calibration) = record.calibration {
+            settings.thresholds = Some(Thresholds {
+                accept: calibration.accept,
+                reject: calibration.reject,
+            });
+            settings.minimum_points = calibration.minimum_points;
+        }
+        settings
+    }
 
     /// How many [`super::Cell`]s the check needs as scratch memory, of four bytes each.
     #[must_use]
