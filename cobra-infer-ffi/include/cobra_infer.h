@@ -30,7 +30,7 @@
 /**
  * Bytes that hold a template's handle on every processor.
  */
-#define COBRA_TEMPLATE_SIZE 176
+#define COBRA_TEMPLATE_SIZE 192
 
 /**
  * Alignment of a template's handle on every processor.
@@ -244,6 +244,10 @@ enum CobraStatus
    * A component's map has not the nodes, the size or the pole that it must have.
    */
   COBRA_STATUS_TEMPLATE_MAP_GRID = 136,
+  /**
+   * A number of the depth section is out of its range.
+   */
+  COBRA_STATUS_TEMPLATE_DEPTH_NUMBER = 137,
   /**
    * An entry of the camera matrix is not finite.
    */

@@ -102,6 +102,8 @@ pub enum CobraStatus {
     TemplateMapValidity = 135,
     /// A component's map has not the nodes, the size or the pole that it must have.
     TemplateMapGrid = 136,
+    /// A number of the depth section is out of its range.
+    TemplateDepthNumber = 137,
 
     /// An entry of the camera matrix is not finite.
     CameraNotFinite = 200,
@@ -141,7 +143,7 @@ use CobraStatus as S;
 
 impl CobraStatus {
     /// Every status, in the order of its number.
-    pub(crate) const ALL: [Self; 59] = [
+    pub(crate) const ALL: [Self; 60] = [
         S::Ok,
         S::NullPointer,
         S::Misaligned,
@@ -186,6 +188,7 @@ impl CobraStatus {
         S::TemplateUnusedCells,
         S::TemplateMapValidity,
         S::TemplateMapGrid,
+        S::TemplateDepthNumber,
         S::CameraNotFinite,
         S::CameraFocalLength,
         S::CameraShape,
@@ -261,6 +264,7 @@ impl CobraStatus {
             S::TemplateMapGrid => {
                 c"a component's map has not the nodes, the size or the pole it must have"
             }
+            S::TemplateDepthNumber => c"a number of the depth section is out of its range",
             S::CameraNotFinite => c"an entry of the camera matrix is not finite",
             S::CameraFocalLength => c"a focal length is not positive",
             S::CameraShape => c"the camera matrix is not (fx s cx; 0 fy cy; 0 0 1)",
@@ -323,6 +327,7 @@ impl From<TemplateError> for CobraStatus {
             E::UnusedCells { .. } => S::TemplateUnusedCells,
             E::MapValidity => S::TemplateMapValidity,
             E::MapGrid { .. } => S::TemplateMapGrid,
+            E::DepthNumber { .. } => S::TemplateDepthNumber,
         }
     }
 }

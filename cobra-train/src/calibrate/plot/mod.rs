@@ -7,6 +7,7 @@
 mod precision_recall;
 mod reliability;
 mod roc;
+mod zoom;
 
 pub use precision_recall::precision_recall_svg;
 pub use reliability::reliability_svg;

@@ -1,6 +1,7 @@
 //! The roc as SVG.
 
 use super::super::{Roc, Thresholds};
+use super::zoom::zoom;
 use super::{BEYOND, Frame, PlotError, curve, dashed, estimates, interval, percent, threshold};
 use crate::demo::style::QUIET;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -19,11 +20,12 @@ pub fn roc_svg(roc: &Roc, thresholds: &Thresholds) -> Result<String, PlotError> 
     };
     frame.svg(|chart| {
         dashed(chart, [(0.0, 0.0), (1.0, 1.0)], QUIET)?;
-        let points = roc.points.iter();
-        curve(
-            chart,
-            points.map(|point| (point.false_accepts.share(), point.true_accepts.share())),
-        )?;
+        let points: Vec<_> = roc
+            .points
+            .iter()
+            .map(|point| (point.false_accepts.share(), point.true_accepts.share()))
+            .collect();
+        curve(chart, points.iter().copied())?;
         let (wrong, right) = (thresholds.false_accepts, thresholds.true_accepts);
         let at = (wrong.share(), right.share());
         let lines = [
@@ -33,6 +35,7 @@ pub fn roc_svg(roc: &Roc, thresholds: &Thresholds) -> Result<String, PlotError> 
         ];
         let up = if at.1 < 0.15 { VPos::Bottom } else { VPos::Top };
         let across = if at.0 < 0.5 { HPos::Left } else { HPos::Right };
+        zoom(chart, &points, (wrong, right))?;
         threshold(chart, at, (across, up), lines)
     })
 }

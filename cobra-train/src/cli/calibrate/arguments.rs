@@ -7,7 +7,7 @@ use std::path::PathBuf;
 #[command(
     after_help = "The report is what cobra bop score --report writes, of the same templates and \
                   settings that will score on the robot: its estimates, their confidences, and which \
-                  of them are right; its errors are in mm. Wrong estimates reach the threshold to accept \
+                  of them are right; its lengths are in millimetres. Wrong estimates reach the threshold to accept \
                   at most at the share given; the interval of that share, from low to high, is Wilson's at \
                   95 %. Estimates of all objects are taken together unless --object names one.\n\n\
                   Examples:\n  cobra calibrate part.cobra --labelled report.json --false-accept \
