@@ -30,23 +30,50 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Results, ReadResultsErr
         });
     }
     let mut rows = Vec::new();
+    let mut lines = Lines {
+        text,
+        counted: 0,
+        line: 1,
+    };
     for record in records {
         let record = record.map_err(csv_error)?;
+        let begins = record.position().map_or(0, csv::Position::byte);
+        let line = lines.of(begins as usize);
         // The reader leaves out empty lines, but not those of blanks.
         if record.len() > 1 || record.iter().any(|field| !field.trim_ascii().is_empty()) {
-            rows.push(row(&record));
+            rows.push(row(line, &record));
         }
     }
     Ok(Results { rows })
 }
 
-fn row(record: &ByteRecord) -> Row {
+/// Lines of a text, counted as far as they were asked for. The reader's own count is of where the
+/// record before ended, ahead of the line's end of Windows and of empty lines.
+struct Lines<'a> {
+    text: &'a [u8],
+    counted: usize,
+    line: u64,
+}
+
+impl Lines<'_> {
+    /// The line, from 1, of what follows the line ends at a byte behind those asked for before.
+    fn of(&mut self, byte: usize) -> u64 {
+        let rest = self.text.get(byte..).unwrap_or_default();
+        let ends = rest.iter().take_while(|b| b"\r\n".contains(b)).count();
+        let passed = self.text.get(self.counted..byte + ends).unwrap_or_default();
+        self.line += passed.iter().filter(|b| **b == b'\n').count() as u64;
+        self.counted = byte + ends;
+        self.line
+    }
+}
+
+fn row(line: u64, record: &ByteRecord) -> Row {
     let fields: Vec<String> = record.iter().map(text_of).collect();
     let is_text = record
         .iter()
         .all(|field| std::str::from_utf8(field).is_ok());
     Row {
-        line: record.position().map_or(0, csv::Position::line),
+        line,
         estimate: if is_text {
             estimate(&fields)
         } else {
