@@ -147,15 +147,15 @@ fn a_rendered_object_covers_the_pixels_that_the_data_set_says() {
             let silhouette = rendered.frame(image, Some(index)).visible(0);
             let count = silhouette.count() as f64;
             let pixels = stated["px_count_all"].as_f64().unwrap();
-            // Half a percent is some pixels of an outline.
+            // A hundredth is some pixels of an outline.
             assert!(
                 (count / pixels - 1.0).abs() < 0.01,
                 "{image} {index}: {count} {pixels}"
             );
             let left = silhouette.pixels().map(|(column, _)| column).min().unwrap();
             let top = silhouette.pixels().map(|(_, row)| row).min().unwrap();
-            let box_ = stated["bbox_obj"].as_array().unwrap();
-            let corner = [0, 1].map(|i| box_[i].as_f64().unwrap());
+            let rectangle = stated["bbox_obj"].as_array().unwrap();
+            let corner = [0, 1].map(|i| rectangle[i].as_f64().unwrap());
             for (found, stated) in [left, top].into_iter().zip(corner) {
                 assert!((f64::from(found) - stated).abs() <= 1.0, "{image} {index}");
             }
@@ -172,17 +172,15 @@ fn rendered_depth_lies_on_the_measured_one() {
     let frame = rendered.frame(3, None);
     let measured = rendered.scene.depth(3, SIZE).unwrap();
     for index in 0..rendered.scene.truth(3).unwrap().len() {
-        let mut off: Vec<f32> = frame
-            .visible(index)
-            .pixels()
-            .filter_map(|(c, r)| Some((measured.at(c, r)? - frame.depth().at(c, r)?).abs()))
-            .collect();
+        // Where nothing that has no annotation stands in front, by BOP's 15 mm.
+        let visible = frame.visible(index);
+        let behind = visible.pixels().filter_map(|(column, row)| {
+            Some(measured.at(column, row)? - frame.depth().at(column, row)?)
+        });
+        let mut off: Vec<f32> = behind.filter(|off| *off > -15.0).map(f32::abs).collect();
         off.sort_unstable_by(f32::total_cmp);
+        assert!(3 * off.len() >= visible.count(), "{index}: {}", off.len());
         let median = off[off.len() / 2];
-        assert!(
-            median < 10.0,
-            "{index}: {median} mm of {} pixels",
-            off.len()
-        );
+        assert!(median < 8.0, "{index}: {median} mm");
     }
 }

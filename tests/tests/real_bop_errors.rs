@@ -1,5 +1,6 @@
-//! Errors of 4,390 real estimates against the values that were published of them (LM-O, three
-//! estimators; E. C. Joyce et al., consensus-driven uncertainty).
+//! Errors of 4,390 real estimates against the values that were published of them: LM-O, three
+//! estimators, github.com/EricCJoyce/Consensus-Driven-Uncertainty. What these were computed of:
+//! docs/BOP.md.
 
 use cobra_infer::Camera;
 use cobra_tests::data::real_data;

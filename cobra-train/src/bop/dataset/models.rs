@@ -55,11 +55,10 @@ impl Models {
         let io = |source| DatasetError::io(&self.folder, source);
         let mut objects = Vec::new();
         for entry in std::fs::read_dir(&self.folder).map_err(io)? {
-            let name = entry.map_err(io)?.file_name();
-            let id = name
-                .to_str()
-                .and_then(|name| name.strip_prefix("obj_")?.strip_suffix(".ply"));
-            objects.extend(id.and_then(|id| id.parse::<u32>().ok()));
+            let path = entry.map_err(io)?.path();
+            let stem = path.file_stem().and_then(|stem| stem.to_str());
+            let id = stem.and_then(|stem| stem.strip_prefix("obj_")?.parse().ok());
+            objects.extend(id.filter(|id| path == self.path(*id)));
         }
         objects.sort_unstable();
         Ok(objects)

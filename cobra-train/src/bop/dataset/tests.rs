@@ -279,6 +279,11 @@ fn the_size_is_the_cameras_or_the_images_or_unknown() {
 #[test]
 fn models_are_known_by_their_files_and_an_unknown_object_names_them() {
     let (folder, dataset) = whole();
+    fs::write(
+        folder.path().join("models/obj_7.ply"),
+        "not a name of BOP's",
+    )
+    .unwrap();
     let models = dataset.models("models").unwrap();
     assert_eq!(models.objects().unwrap(), [1, 2, 10]);
     let Geometry::Mesh(mesh) = models.geometry(10).unwrap() else {

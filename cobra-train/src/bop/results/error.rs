@@ -26,14 +26,6 @@ pub enum ReadResultsError {
         /// What stands there, on one line and cut short.
         found: String,
     },
-    /// The file is not CSV.
-    #[error("{}: {source}", path.display())]
-    Csv {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong, and where.
-        source: csv::Error,
-    },
 }
 
 impl ReadResultsError {
@@ -62,7 +54,10 @@ pub enum RowError {
         found: String,
     },
     /// R has not nine numbers, t not three, or score or time not one.
-    #[error("{column}: expected {expected} numbers, found {found}")]
+    #[error(
+        "{column}: expected {expected} number{}, found {found}",
+        if *expected == 1 { "" } else { "s" }
+    )]
     Count {
         /// The column.
         column: &'static str,
@@ -79,7 +74,7 @@ pub enum RowError {
         /// What stands there.
         found: String,
     },
-    /// A quoted field goes over several lines.
+    /// A field has a carriage return inside, which some programs take for the end of a line.
     #[error("{column}: expected a field on one line, found several")]
     Lines {
         /// The column.

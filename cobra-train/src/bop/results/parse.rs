@@ -9,44 +9,52 @@ const QUOTED: usize = 60;
 
 pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Results, ReadResultsError> {
     let text = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .from_reader(text);
-    let mut records = reader.byte_records();
-    let csv_error = |source| ReadResultsError::Csv {
-        path: path.to_owned(),
-        source,
-    };
-    let header = records.next().transpose().map_err(csv_error)?;
-    let header: Vec<String> = header.iter().flatten().map(text_of).collect();
-    if !header.iter().map(|name| name.trim()).eq(COLUMNS) {
+    let mut lines = (1..).zip(text.split(|byte| *byte == b'\n').map(without_return));
+    let header = lines.next().map(|(_, line)| line).unwrap_or_default();
+    let names: Vec<String> = record(header).iter().map(text_of).collect();
+    if !names.iter().map(|name| name.trim()).eq(COLUMNS) {
         return Err(ReadResultsError::Header {
             path: path.to_owned(),
-            found: match header.join(",").trim() {
+            found: match text_of(header).trim() {
                 "" => "nothing".to_owned(),
                 found => short(found),
             },
         });
     }
-    let mut rows = Vec::new();
-    for record in records {
-        let record = record.map_err(csv_error)?;
-        // The reader leaves out empty lines, but not those of blanks.
-        if record.len() > 1 || record.iter().any(|field| !field.trim_ascii().is_empty()) {
-            rows.push(row(&record));
-        }
-    }
-    Ok(Results { rows })
+    let filled = lines.filter(|(_, line)| !line.trim_ascii().is_empty());
+    Ok(Results {
+        rows: filled
+            .map(|(number, line)| row(number, &record(line)))
+            .collect(),
+    })
 }
 
-fn row(record: &ByteRecord) -> Row {
+fn without_return(line: &[u8]) -> &[u8] {
+    line.strip_suffix(b"\r").unwrap_or(line)
+}
+
+/// The fields of one line. Lines are taken apart one by one, so that a quote that is never closed
+/// does not swallow the rows below.
+fn record(line: &[u8]) -> ByteRecord {
+    let mut record = ByteRecord::new();
+    let read = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .buffer_capacity(line.len().max(1))
+        .terminator(csv::Terminator::Any(b'\n'))
+        .from_reader(line)
+        .read_byte_record(&mut record);
+    // Memory cannot fail to be read, and one record cannot differ in length from others.
+    debug_assert!(read.is_ok());
+    record
+}
+
+fn row(line: u64, record: &ByteRecord) -> Row {
     let fields: Vec<String> = record.iter().map(text_of).collect();
     let is_text = record
         .iter()
         .all(|field| std::str::from_utf8(field).is_ok());
     Row {
-        line: record.position().map_or(0, csv::Position::line),
+        line,
         estimate: if is_text {
             estimate(&fields)
         } else {
@@ -63,7 +71,7 @@ fn estimate(fields: &[String]) -> Result<PoseEstimate, RowError> {
         });
     };
     for (column, field) in COLUMNS.into_iter().zip(fields) {
-        if field.contains(['\n', '\r']) {
+        if field.contains('\r') {
             return Err(RowError::Lines { column });
         }
     }
@@ -202,7 +210,7 @@ mod tests {
                 "high",
                 "score: expected a finite number, found \"high\"",
             ),
-            ("0.5", "", "score: expected 1 numbers, found 0"),
+            ("0.5", "", "score: expected 1 number, found 0"),
             (
                 "0.5",
                 "NaN",
@@ -224,7 +232,7 @@ mod tests {
             ("0 1 0", "\"0\n1 0", "expected 7 fields"),
             (
                 "10 -20.5 1e3",
-                "\"10 -20.5\n1e3\"",
+                "10 -20.5\r1e3",
                 "t: expected a field on one line",
             ),
         ] {
@@ -267,6 +275,20 @@ mod tests {
             assert_eq!(error.lines().count(), 1);
         }
         assert!(read("").unwrap_err().to_string().ends_with("found nothing"));
+    }
+
+    #[test]
+    fn a_quote_that_is_never_closed_spoils_its_row_alone() {
+        let bad = GOOD.replace("0.5,", "\"0.5,");
+        let rows = read(&format!("{HEADER}\n{bad}\n{GOOD}\n")).unwrap().rows;
+        assert_eq!(rows[0].estimate, Err(RowError::Fields { found: 4 }));
+        assert!(rows[1].estimate.is_ok());
+    }
+
+    #[test]
+    fn a_missing_file_is_named() {
+        let error = super::super::read_results(Path::new("no/such.csv")).unwrap_err();
+        assert!(error.is_io() && error.to_string().starts_with("no/such.csv: "));
     }
 
     #[test]
