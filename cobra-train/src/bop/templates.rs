@@ -1,8 +1,13 @@
 //! A folder of templates: `obj_000001.cobra`, …, as `cobra bop train` writes them.
 
+use super::score::{Checked, Surfaces};
+use crate::train::LARGEST_TEMPLATE;
+use cobra_infer::depth::{DepthError, DepthSettings, TemplateSurface};
 use cobra_infer::template::DecodedTerm;
 use cobra_infer::{Template, TemplateError, Unit};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Why an object has no template that its estimates can be scored with.
 #[derive(Debug, thiserror::Error)]
@@ -31,6 +36,14 @@ pub enum TemplateFileError {
         /// The template's unit.
         found: Unit,
     },
+    /// It cannot be checked against depth.
+    #[error("{}: {source}", path.display())]
+    Depth {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: DepthError,
+    },
 }
 
 /// The file of an object's template.
@@ -42,6 +55,7 @@ pub fn template_path(folder: &Path, object: u32) -> PathBuf {
 /// A template's bytes, and room for what makes it fast on a host.
 #[derive(Debug)]
 pub struct TemplateFile {
+    path: PathBuf,
     bytes: Vec<u8>,
     room: Vec<DecodedTerm>,
 }
@@ -66,15 +80,69 @@ impl TemplateFile {
             return Err(TemplateFileError::Unit { path, found });
         }
         let room = vec![DecodedTerm::default(); template.decoded_len()];
-        Ok(Self { bytes, room })
+        Ok(Self { path, bytes, room })
+    }
+}
+
+/// The templates of some objects.
+#[derive(Debug)]
+pub struct TemplateFolder {
+    files: BTreeMap<u32, Result<TemplateFile, Arc<TemplateFileError>>>,
+}
+
+impl TemplateFolder {
+    /// Reads the templates of these objects; what is wrong with one does not concern the others.
+    #[must_use]
+    pub fn read(folder: &Path, objects: impl IntoIterator<Item = u32>) -> Self {
+        let read = |object| (object, TemplateFile::read(folder, object).map_err(Arc::new));
+        Self {
+            files: objects.into_iter().map(read).collect(),
+        }
     }
 
-    /// The template, decoded where that makes it faster.
-    ///
-    /// # Panics
-    /// Never: the bytes were checked.
-    pub fn template(&mut self) -> Template<'_> {
-        let template = Template::from_bytes(&self.bytes).expect("checked when it was read");
-        template.decoded(&mut self.room).unwrap_or(template)
+    /// Hands over the templates as surfaces, each with the noise and the thresholds that it records.
+    pub fn with_surfaces<R>(
+        &mut self,
+        act: impl FnOnce(&Surfaces<TemplateSurface<'_, LARGEST_TEMPLATE>>) -> R,
+    ) -> R {
+        let files = self.files.iter_mut();
+        let templates: Vec<_> = files
+            .map(|(object, file)| (*object, file.as_mut().map(template)))
+            .collect();
+        let surfaces = templates
+            .iter()
+            .map(|(object, template)| {
+                let surface = match template {
+                    Ok((path, template)) => surface(path, template).map_err(Arc::new),
+                    Err(error) => Err(Arc::clone(error)),
+                };
+                (*object, surface)
+            })
+            .collect();
+        act(&surfaces)
     }
+}
+
+/// The template of a file that was checked when it was read, decoded where that makes it faster.
+fn template(file: &mut TemplateFile) -> (&Path, Template<'_>) {
+    let template = Template::from_bytes(&file.bytes).expect("checked when it was read");
+    let decoded = template.decoded(&mut file.room);
+    (&file.path, decoded.unwrap_or(template))
+}
+
+fn surface<'t>(
+    path: &Path,
+    template: &'t Template<'t>,
+) -> Result<Checked<TemplateSurface<'t, LARGEST_TEMPLATE>>, TemplateFileError> {
+    let settings = DepthSettings::for_template(template);
+    // The depth matters to a sensor's noise alone, and templates record a share.
+    let surface = settings
+        .noise
+        .at(template.diameter(), 0.0)
+        .and_then(|noise| TemplateSurface::new(template, noise))
+        .map_err(|source| TemplateFileError::Depth {
+            path: path.to_owned(),
+            source,
+        })?;
+    Ok(Checked { surface, settings })
 }

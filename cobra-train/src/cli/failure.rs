@@ -1,6 +1,8 @@
 //! What ends the command early, and the exit code that says so.
 
 use cobra_infer::{ScoreError, TemplateError};
+use cobra_train::bop::dataset::DatasetError;
+use cobra_train::bop::results::ReadResultsError;
 use cobra_train::input::{
     ReadCameraError, ReadCorrespondencesError, ReadEstimatesError, ReadReportError,
 };
@@ -60,6 +62,18 @@ impl Failure {
 impl From<WriteError> for Failure {
     fn from(error: WriteError) -> Self {
         Failure::Io(error.to_string())
+    }
+}
+
+impl From<DatasetError> for Failure {
+    fn from(error: DatasetError) -> Self {
+        classify(error.is_io(), &error)
+    }
+}
+
+impl From<ReadResultsError> for Failure {
+    fn from(error: ReadResultsError) -> Self {
+        classify(error.is_io(), &error)
     }
 }
 

@@ -4,6 +4,7 @@
 //! another program could want is in the library.
 
 mod args;
+mod bop;
 mod calibrate;
 mod choices;
 mod coverage;
@@ -37,6 +38,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Train(arguments) => train::run(arguments, &terminal),
         Command::Score(arguments) => score::run(arguments, &terminal),
         Command::Eval(arguments) => eval::run(arguments, &terminal),
+        Command::Bop(arguments) => bop::run(arguments, &terminal),
         Command::Calibrate(arguments) => calibrate::run(arguments, &terminal),
         Command::Inspect(arguments) => inspect::run(arguments, &terminal),
         Command::Export(arguments) => export::run(arguments, &terminal),

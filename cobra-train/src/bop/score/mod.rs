@@ -3,12 +3,16 @@
 //! Owns which pixels, which depth and which truth belong to an estimate, and that what is wrong with one
 //! row or one image does not concern the others. The check itself is [`cobra_infer::depth`]'s.
 
+mod document;
 mod frame;
 mod problem;
+mod summary;
 mod truth;
 
+pub use document::ReportDocument;
 pub use problem::Problem;
-pub use truth::Truth;
+pub use summary::Summary;
+pub use truth::{Errors, Truth};
 
 use super::dataset::Dataset;
 use super::results::{PoseEstimate, Results};
@@ -60,8 +64,6 @@ pub struct ScoreOptions {
     pub seed: u64,
     /// How many of a mask's pixels are used at most, spread evenly.
     pub pixels: usize,
-    /// Of the check; its noise is the surfaces'.
-    pub settings: DepthSettings,
 }
 
 impl ScoreOptions {
@@ -97,8 +99,26 @@ pub struct Outcome {
     pub masked: bool,
 }
 
+impl Outcome {
+    /// On how many pixels or points of the surface it rests, whichever are fewer: what
+    /// [`DepthSettings::minimum_points`] is compared with.
+    #[must_use]
+    pub fn valid_pixels(&self) -> u32 {
+        self.report.pixels.min(self.report.judged)
+    }
+}
+
+/// What an object's estimates are checked against, and how.
+#[derive(Clone, Debug)]
+pub struct Checked<S> {
+    /// Its surface, with the noise that likelihoods are made with.
+    pub surface: S,
+    /// All other settings.
+    pub settings: DepthSettings,
+}
+
 /// The surface of each object, or why there is none.
-pub type Surfaces<S> = BTreeMap<u32, Result<S, Arc<TemplateFileError>>>;
+pub type Surfaces<S> = BTreeMap<u32, Result<Checked<S>, Arc<TemplateFileError>>>;
 
 /// Scores all rows, those of an image together; in the order of the file, whatever the number of threads.
 ///
@@ -163,8 +183,8 @@ fn score_one<S: Surface>(
     surfaces: &Surfaces<S>,
     options: &ScoreOptions,
 ) -> Result<Outcome, Problem> {
-    let surface = match surfaces.get(&estimate.obj_id) {
-        Some(Ok(surface)) => surface,
+    let Checked { surface, settings } = match surfaces.get(&estimate.obj_id) {
+        Some(Ok(checked)) => checked,
         Some(Err(error)) => return Err(Problem::Template(Arc::clone(error))),
         None => {
             return Err(Problem::NoTemplate {
@@ -182,8 +202,8 @@ fn score_one<S: Surface>(
         Some(pixels) => Observed::Pixels(pixels),
         None => Observed::Silhouette,
     };
-    let check = DepthCheck::new(surface, frame.camera(), &options.settings);
-    let mut cells = vec![Cell::EMPTY; options.settings.cells()];
+    let check = DepthCheck::new(surface, frame.camera(), settings);
+    let mut cells = vec![Cell::EMPTY; settings.cells()];
     let report = check
         .and_then(|check| check.run(&pose, observed, frame.depth(), &mut cells, &mut || {}))
         .map_err(Problem::Check)?;

@@ -8,9 +8,18 @@ use crate::pose::{ModelPoints, add, add_s, mspd, mssd};
 use nalgebra::Isometry3;
 use std::collections::BTreeMap;
 
+/// What the truth says of an estimate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Truth {
+    /// The image does not show the object: the estimate is wrong, by no distance.
+    Absent,
+    /// It does.
+    Present(Errors),
+}
+
 /// The errors of an estimate, in mm unless said otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Truth {
+pub struct Errors {
     /// ADD.
     pub add: f64,
     /// ADD-S.
@@ -30,6 +39,23 @@ pub struct Truth {
 }
 
 impl Truth {
+    /// The errors, where the object is there.
+    #[must_use]
+    pub fn errors(&self) -> Option<&Errors> {
+        match self {
+            Self::Absent => None,
+            Self::Present(errors) => Some(errors),
+        }
+    }
+
+    /// Whether the object is there and [`Errors::is_right`].
+    #[must_use]
+    pub fn is_right(&self) -> bool {
+        self.errors().is_some_and(Errors::is_right)
+    }
+}
+
+impl Errors {
     /// Right is what is off by less than this share of the diameter.
     pub const RIGHT: f64 = 0.1;
 
@@ -39,7 +65,7 @@ impl Truth {
         if self.symmetric { self.add_s } else { self.add }
     }
 
-    /// Whether [`Truth::error`] is less than [`Truth::RIGHT`] times the diameter.
+    /// Whether [`Errors::error`] is less than [`Errors::RIGHT`] times the diameter.
     #[must_use]
     pub fn is_right(&self) -> bool {
         self.error() < Self::RIGHT * self.diameter
@@ -87,7 +113,7 @@ impl Judge {
     }
 
     /// The errors against that annotation of the object in the image that is nearest; `None` where nothing
-    /// is known of the image or the object, or it is not in the image.
+    /// is known of the image or the object.
     pub(super) fn truth(&self, frames: &Frames<'_>, estimate: &PoseEstimate) -> Option<Truth> {
         let model = self.objects.get(&estimate.obj_id)?;
         let scene = frames.scene(estimate.scene_id).ok()?;
@@ -95,12 +121,12 @@ impl Judge {
         let annotations = scene.truth(estimate.im_id).ok()?;
         let pose = estimate.isometry().ok()?;
         let points = model.points.points();
-        annotations
+        let errors = annotations
             .iter()
             .filter(|annotation| annotation.obj_id == estimate.obj_id)
             .map(|annotation| {
                 let truth = &annotation.pose;
-                Truth {
+                Errors {
                     add: add(points, truth, &pose),
                     add_s: add_s(&model.points, truth, &pose),
                     mssd: mssd(points, truth, &pose, &model.symmetries),
@@ -111,6 +137,7 @@ impl Judge {
                     symmetric: model.symmetric,
                 }
             })
-            .min_by(|a, b| a.error().total_cmp(&b.error()))
+            .min_by(|a, b| a.error().total_cmp(&b.error()));
+        Some(errors.map_or(Truth::Absent, Truth::Present))
     }
 }
