@@ -132,7 +132,7 @@ fn threshold(
     let x = if right { -16 } else { 16 };
     let top = if above { -16 - 22 * 2 } else { 18 };
     for (line, text) in (0..).zip(lines) {
-        let style = style(16, INK, across.clone(), VPos::Center);
+        let style = style(16, INK, across, VPos::Center);
         let text = Text::new(text, (x, top + 22 * line), style);
         chart.draw_series([EmptyElement::at(at) + text])?;
     }

@@ -39,12 +39,11 @@ pub(super) fn zoom(
             along(LOW.1, HIGH.1, y),
         )
     };
-    let rectangle =
-        |from, to, colour: RGBColor| Rectangle::new([place(from), place(to)], colour.filled());
     // Room for the heading, which the diagonal would cross.
     let backdrop = [LOW, (HIGH.0, HIGH.1 + HEADING)];
     chart.draw_series([Rectangle::new(backdrop, PAPER.filled())])?;
-    chart.draw_series([rectangle((low, 0.0), (high, 1.0), HAIRLINE)])?;
+    let band = [place((low, 0.0)), place((high, 1.0))];
+    chart.draw_series([Rectangle::new(band, HAIRLINE.filled())])?;
     let frame = Rectangle::new([LOW, HIGH], QUIET.stroke_width(1));
     chart.draw_series([frame])?;
     for share in [0.0, 0.5, 1.0] {
