@@ -113,6 +113,7 @@ fn the_curves_are_svg_with_the_threshold_in_them() {
     succeed(scene.arguments(&words(&["--curves", "@curves/of/part"])));
     for (name, said) in [
         ("roc.svg", "accepted from 0.470 on:"),
+        ("roc.svg", "enlarged"),
         ("precision-recall.svg", "accepted from 0.470 on:"),
         ("reliability.svg", "accepted from 0.470"),
     ] {

@@ -114,11 +114,12 @@ fn dashed(chart: &mut Chart<'_, '_>, ends: [(f64, f64); 2], colour: RGBColor) ->
     Ok(())
 }
 
-/// The threshold to accept where the curve passes it: lines to the axes, a disc, and what it does.
+/// The threshold to accept where the curve passes it: lines to the axes, a disc, and what it does, which
+/// is written below and beside `place`.
 fn threshold(
     chart: &mut Chart<'_, '_>,
     at: (f64, f64),
-    (across, up): (HPos, VPos),
+    (place, across): ((f64, f64), HPos),
     lines: [String; 3],
 ) -> Drawn {
     dashed(chart, [(at.0, -BEYOND), at], INK)?;
@@ -128,13 +129,11 @@ fn threshold(
         Circle::new(at, 6, Verdict::Reject.colour().filled()),
     ])?;
     let right = matches!(across, HPos::Right);
-    let above = matches!(up, VPos::Bottom);
     let x = if right { -16 } else { 16 };
-    let top = if above { -16 - 22 * 2 } else { 18 };
     for (line, text) in (0..).zip(lines) {
         let style = style(16, INK, across, VPos::Center);
-        let text = Text::new(text, (x, top + 22 * line), style);
-        chart.draw_series([EmptyElement::at(at) + text])?;
+        let text = Text::new(text, (x, 18 + 22 * line), style);
+        chart.draw_series([EmptyElement::at(place) + text])?;
     }
     Ok(())
 }

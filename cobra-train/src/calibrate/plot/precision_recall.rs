@@ -3,7 +3,7 @@
 use super::super::{PrecisionRecall, Rate, Thresholds};
 use super::{BEYOND, Frame, PlotError, curve, dashed, estimates, interval, percent, threshold};
 use crate::demo::style::QUIET;
-use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::text_anchor::HPos;
 
 /// The curve with the threshold to accept on it; the level line is what accepting all comes to.
 ///
@@ -42,8 +42,9 @@ pub fn precision_recall_svg(
             format!("{} are right ({})", percent(precision), interval(precision)),
             format!("{} of right ones", percent(right)),
         ];
-        let up = if at.1 < 0.15 { VPos::Bottom } else { VPos::Top };
+        // Three lines take so much room below a point.
+        let place = (at.0, at.1.max(0.2));
         let across = if at.0 < 0.5 { HPos::Left } else { HPos::Right };
-        threshold(chart, at, (across, up), lines)
+        threshold(chart, at, (place, across), lines)
     })
 }

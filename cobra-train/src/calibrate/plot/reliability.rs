@@ -51,25 +51,25 @@ pub fn reliability_svg(bins: &[Bin], thresholds: &Thresholds) -> Result<String, 
             chart.draw_series(lines.map(|line| PathElement::new(line, HAIRLINE)))?;
         }
         dashed(chart, [(0.0, 0.0), (1.0, 1.0)], QUIET)?;
-        for (value, name, across, x) in [
-            (reject, "rejected below", HPos::Right, -8),
-            (accept, "accepted from", HPos::Left, 8),
-        ] {
+        for value in [reject, accept] {
             dashed(chart, [(value, LOW), (value, HIGH)], INK)?;
-            // Where there is no room beside the line, on its other side.
-            let (across, x) = match across {
-                HPos::Right if value < 0.25 => (HPos::Left, 8),
-                HPos::Left if value > 0.75 => (HPos::Right, -8),
-                _ => (across, x),
-            };
-            let y = if name.starts_with('a') { 14 } else { 40 };
-            let label = Text::new(
-                format!("{name} {value:.3}"),
-                (x, y),
-                style(16, INK, across, VPos::Center),
-            );
-            let top = (value, HIGH);
-            chart.draw_series([EmptyElement::at(top) + label])?;
+        }
+        // Outwards of its line; where there is no room, inwards, and beyond the other if that is near.
+        let near = accept - reject < 0.25;
+        let of_reject = match reject {
+            reject if reject >= 0.25 => (reject, HPos::Right, -8),
+            reject => (if near { accept } else { reject }, HPos::Left, 8),
+        };
+        let of_accept = match accept {
+            accept if accept <= 0.75 => (accept, HPos::Left, 8),
+            accept => (if near { reject } else { accept }, HPos::Right, -8),
+        };
+        for (text, y, (line, across, x)) in [
+            (format!("rejected below {reject:.3}"), 40, of_reject),
+            (format!("accepted from {accept:.3}"), 14, of_accept),
+        ] {
+            let label = Text::new(text, (x, y), style(16, INK, across, VPos::Center));
+            chart.draw_series([EmptyElement::at((line, HIGH)) + label])?;
         }
         curve(
             chart,

@@ -4,7 +4,10 @@ use super::super::{Roc, Thresholds};
 use super::zoom::zoom;
 use super::{BEYOND, Frame, PlotError, curve, dashed, estimates, interval, percent, threshold};
 use crate::demo::style::QUIET;
-use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::text_anchor::HPos;
+
+/// Below any curve that is better than guessing.
+const BELOW: (f64, f64) = (0.5, 0.3);
 
 /// The curve with the threshold to accept on it; the diagonal is what guessing comes to.
 ///
@@ -33,9 +36,11 @@ pub fn roc_svg(roc: &Roc, thresholds: &Thresholds) -> Result<String, PlotError> 
             format!("{} of wrong ones ({})", percent(wrong), interval(wrong)),
             format!("{} of right ones", percent(right)),
         ];
-        let up = if at.1 < 0.15 { VPos::Bottom } else { VPos::Top };
-        let across = if at.0 < 0.5 { HPos::Left } else { HPos::Right };
+        // Beside a low point the curve rises; below the diagonal there is room.
+        let steep = points.iter().any(|&(x, y)| x < 0.1 && y > 0.5);
+        let beside = at.0 < 0.5 && (at.1 >= 0.5 || steep);
+        let place = if beside { at } else { BELOW };
         zoom(chart, &points, (wrong, right))?;
-        threshold(chart, at, (across, up), lines)
+        threshold(chart, at, (place, HPos::Left), lines)
     })
 }

@@ -8,8 +8,11 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// Where the enlargement stands, in shares of the whole: below a curve that is any good.
-const LOW: (f64, f64) = (0.46, 0.1);
+const LOW: (f64, f64) = (0.5, 0.1);
 const HIGH: (f64, f64) = (0.97, 0.56);
+
+/// A part that is larger than this shows as well in the whole.
+const LARGEST: f64 = 0.2;
 
 /// Height of the heading above the enlargement.
 const HEADING: f64 = 0.05;
@@ -18,20 +21,19 @@ const HEADING: f64 = 0.05;
 const MARGIN: f64 = 0.1;
 
 /// Draws the curve up to some ten times the rate at the threshold, with the rate's interval as a band;
-/// nothing where the curve itself is in the way.
+/// nothing where the curve
+/// itself is in the way, or shows as much.
 pub(super) fn zoom(
     chart: &mut Chart<'_, '_>,
     points: &[(f64, f64)],
     (wrong, right): (Rate, Rate),
 ) -> Drawn {
-    if points
-        .iter()
-        .any(|&(x, y)| x > LOW.0 && y < HIGH.1 + MARGIN)
-    {
-        return Ok(());
-    }
     let Interval { low, high } = wrong.interval();
     let reach = reach(wrong.share().max(high / 2.0));
+    let crossed = |&(x, y): &(f64, f64)| x > LOW.0 && y < HIGH.1 + MARGIN;
+    if reach > LARGEST || points.iter().any(crossed) {
+        return Ok(());
+    }
     let place = |(x, y): (f64, f64)| {
         let along = |from: f64, to: f64, share: f64| from + share * (to - from);
         (
@@ -39,12 +41,11 @@ pub(super) fn zoom(
             along(LOW.1, HIGH.1, y),
         )
     };
-    let rectangle =
-        |from, to, colour: RGBColor| Rectangle::new([place(from), place(to)], colour.filled());
     // Room for the heading, which the diagonal would cross.
     let backdrop = [LOW, (HIGH.0, HIGH.1 + HEADING)];
     chart.draw_series([Rectangle::new(backdrop, PAPER.filled())])?;
-    chart.draw_series([rectangle((low, 0.0), (high, 1.0), HAIRLINE)])?;
+    let band = [place((low, 0.0)), place((high, 1.0))];
+    chart.draw_series([Rectangle::new(band, HAIRLINE.filled())])?;
     let frame = Rectangle::new([LOW, HIGH], QUIET.stroke_width(1));
     chart.draw_series([frame])?;
     for share in [0.0, 0.5, 1.0] {
