@@ -9,14 +9,16 @@ use crate::score::{Decision, Doubt, Rejection};
 /// The answer. None of its numbers is ever NaN; lengths are in the template's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthReport {
-    /// exp(−estimated_error²/2σ²), the least of the three likelihoods, from 0 to 1.
+    /// exp(−estimated_error²/2σ²), the least of the three likelihoods, from 0 to 1; 0 where it would rest on
+    /// fewer than [`DepthSettings::minimum_points`] pixels or points of the surface.
     pub confidence: f32,
     /// The mean likelihood of the observed pixels, put back onto the surface.
     pub forward: f32,
     /// The mean likelihood of the surface that must be visible.
     pub reverse: f32,
     /// How far the pose is estimated to be off, as ADD is: the largest of the displacement and of the
-    /// lengths that the two likelihoods stand for. No more than 13.3 σ.
+    /// lengths that the two likelihoods stand for. At most 13.3 σ unless the displacement is larger, and that
+    /// where too little is known.
     pub estimated_error: f32,
     /// How far refinement moves the object's points, on average.
     pub displacement: f32,
@@ -90,13 +92,14 @@ impl DepthReport {
         let lengths = [self.forward, self.reverse].map(|mean| length(mean, self.noise));
         self.estimated_error = lengths.into_iter().fold(self.displacement, largest);
         let few = settings.minimum_points.max(1);
-        self.decision = if self.judged < few {
-            Decision::Undecided(if self.hidden >= few {
-                Doubt::Hidden
-            } else {
-                Doubt::TooFewPoints
-            })
-        } else if self.pixels < few {
+        if self.judged < few || self.pixels < few {
+            // What little there is may fit by chance.
+            self.confidence = 0.0;
+            self.estimated_error = length(0.0, self.noise);
+        }
+        self.decision = if self.judged < few && self.hidden >= few {
+            Decision::Undecided(Doubt::Hidden)
+        } else if self.judged < few || self.pixels < few {
             Decision::Undecided(Doubt::TooFewPoints)
         } else if self.confidence <= 0.0 {
             Decision::Reject(Rejection::NoSupport)

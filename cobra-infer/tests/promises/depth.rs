@@ -226,6 +226,7 @@ fn without_evidence_there_is_no_decision() {
     };
     let report = run(&pose(0.0), &hidden, false, &settings());
     assert_eq!(report.decision, Decision::Undecided(Doubt::Hidden));
+    assert_eq!(report.confidence, 0.0);
     assert_eq!(cause(&pose(0.0), &report), Cause::InFront);
     let blind = Scene {
         background: None,
@@ -237,6 +238,21 @@ fn without_evidence_there_is_no_decision() {
     let outside = Pose::from_row_major(IDENTITY, [3000.0, 0.0, 500.0]).unwrap();
     let report = run(&outside, &Scene::at(0.0, 500.0), false, &settings());
     assert_eq!(report.decision, Decision::Undecided(Doubt::TooFewPoints));
+}
+
+#[test]
+fn what_fits_by_chance_in_a_few_points_has_no_confidence() {
+    // Of a right pose so much is hidden that fewer points are left than a decision needs.
+    let most = |edge| Scene {
+        wall: Some((edge, 300.0)),
+        ..Scene::at(0.0, 500.0)
+    };
+    let reports = [320, 345, 350].map(|edge| run(&pose(0.0), &most(edge), false, &settings()));
+    let [half, some, few] = &reports;
+    assert!(half.confidence > 0.99 && some.confidence > 0.9, "{some:?}");
+    assert!(few.judged > 0 && few.judged < 10, "{few:?}");
+    assert_eq!(few.confidence, 0.0);
+    assert_eq!(few.decision, Decision::Undecided(Doubt::Hidden));
 }
 
 #[test]
