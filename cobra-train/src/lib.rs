@@ -42,6 +42,7 @@ pub mod pose;
 pub mod progress;
 pub mod random;
 pub mod reference;
+pub mod simulation;
 pub mod surface;
 pub mod train;
 pub mod validity;

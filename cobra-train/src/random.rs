@@ -37,6 +37,8 @@ pub enum Purpose {
     OffSurface,
     /// Noise on simulated depth images.
     DepthNoise,
+    /// Scenes of one object, and wrong poses in them.
+    SimulatedScenes,
 }
 
 /// The stream for one purpose and index.

@@ -3,8 +3,9 @@
 mod arguments;
 mod document;
 mod evidence;
+mod simulated;
 
-pub(crate) use arguments::CalibrateArguments;
+pub(crate) use arguments::{CalibrateArguments, MasksArgument};
 
 use super::failure::Failure;
 use super::outputs;
@@ -30,7 +31,7 @@ pub(super) fn run(arguments: &CalibrateArguments, terminal: &Terminal) -> Result
     let curves = curves(arguments)?;
     check_outputs(arguments, output, curves.as_ref())?;
 
-    let evidence = evidence(arguments, terminal)?;
+    let evidence = evidence(arguments, &template, terminal)?;
     let found = find(arguments, &template, &evidence)?;
     let calibrated = with_thresholds(&bytes, &found)
         .map_err(|error| Failure::BadInput(format!("{}: {error}", output.display())))?;
@@ -85,7 +86,9 @@ fn check_outputs(
     let mut outputs = vec![output];
     outputs.extend(outputs::named_file(arguments.json.as_ref()));
     outputs.extend(curves.into_iter().flatten().map(PathBuf::as_path));
-    outputs::check(&[&arguments.labelled], &outputs)?;
+    let inputs = arguments.labelled.iter().chain(&arguments.mesh);
+    let inputs: Vec<&Path> = inputs.map(PathBuf::as_path).collect();
+    outputs::check(&inputs, &outputs)?;
     outputs::check(&[&arguments.template], &outputs[1..])
 }
 
@@ -100,8 +103,8 @@ fn find<'a>(
     };
     let labelled = &evidence.labelled;
     let refuse = |what: &str| {
-        let report = arguments.labelled.display();
-        Failure::BadInput(format!("{report}: {what}"))
+        let report = arguments.labelled.as_ref().unwrap_or(&arguments.template);
+        Failure::BadInput(format!("{}: {what}", report.display()))
     };
     let thresholds = calibrate(labelled, aim).map_err(|error| refuse(&error.to_string()))?;
     let (roc, precision_recall) = Roc::new(labelled)

@@ -1,6 +1,6 @@
 //! The arguments of `cobra calibrate`.
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -9,10 +9,13 @@ use std::path::PathBuf;
                   settings that will score on the robot: its estimates, their confidences, and which \
                   of them are right; its lengths are in millimetres. Wrong estimates reach the threshold to accept \
                   at most at the share given; the interval of that share, from low to high, is Wilson's at \
-                  95 %. Estimates of all objects are taken together unless --object names one.\n\n\
+                  95 %. Estimates of all objects are taken together unless --object names one.\n\nWith \
+                  --simulate there is no report: the object is put before a simulated camera, and estimates \
+                  of it are off by 1 % to 100 % of its diameter.\n\n\
                   Examples:\n  cobra calibrate part.cobra --labelled report.json --false-accept \
                   0.01\n  cobra calibrate part.cobra --labelled report.json --false-accept 0.005 \
-                  --object 5 --curves curves -o calibrated.cobra"
+                  --object 5 --curves curves -o calibrated.cobra\n  cobra calibrate part.cobra --simulate 5000 \
+                  --mesh part.ply --false-accept 0.01"
 )]
 pub(crate) struct CalibrateArguments {
     /// Template file that the thresholds are stored in
@@ -20,8 +23,39 @@ pub(crate) struct CalibrateArguments {
     pub(crate) template: PathBuf,
 
     /// Report of scored estimates with their truth
-    #[arg(long, value_name = "REPORT.json")]
-    pub(crate) labelled: PathBuf,
+    #[arg(
+        long,
+        value_name = "REPORT.json",
+        required_unless_present = "simulate",
+        conflicts_with = "simulate"
+    )]
+    pub(crate) labelled: Option<PathBuf>,
+
+    /// Simulate so many estimates of the object, and score them against simulated depth
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
+    pub(crate) simulate: Option<u32>,
+
+    /// With --simulate: what the camera sees, in the template's unit [default: the template's own surface,
+    /// which then has no error]
+    #[arg(long, value_name = "MESH", requires = "simulate")]
+    pub(crate) mesh: Option<PathBuf>,
+
+    /// With --simulate: which pixels show the object: those that a mask says, or those in which the estimate
+    /// itself says that it is seen
+    #[arg(long, value_enum, default_value_t = MasksArgument::Silhouette, requires = "simulate")]
+    pub(crate) masks: MasksArgument,
+
+    /// With --simulate: standard deviation of the depth, in mm [default: 1.5]
+    #[arg(long, value_name = "MM", value_parser = crate::cli::choices::not_negative, requires = "simulate")]
+    pub(crate) depth_noise: Option<f32>,
+
+    /// With --simulate: judge estimates by ADD-S, of an object that looks the same from several sides
+    #[arg(long, requires = "simulate")]
+    pub(crate) symmetric: bool,
+
+    /// With --simulate: seed of all randomness
+    #[arg(long, default_value_t = 0, requires = "simulate")]
+    pub(crate) seed: u64,
 
     /// Share of the wrong estimates that may be accepted, above 0 and below 1
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -63,4 +97,12 @@ fn share(text: &str) -> Result<f64, String> {
         Ok(share) if share > 0.0 && share < 1.0 => Ok(share),
         _ => Err("expected a share above 0 and below 1, such as 0.01 for 1 %".to_owned()),
     }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MasksArgument {
+    /// The pixels that show the object
+    Simulated,
+    /// The pixels in which the estimate says that it is seen
+    Silhouette,
 }

@@ -1,9 +1,10 @@
 //! The labelled estimates that thresholds are found on, and where they come from.
 
-use super::CalibrateArguments;
+use super::{CalibrateArguments, simulated};
 use crate::cli::failure::Failure;
 use crate::cli::report::plural;
 use crate::cli::terminal::Terminal;
+use cobra_infer::Template;
 use cobra_infer::template::{CalibrationSource, PROVENANCE_CAPACITY};
 use cobra_train::calibrate::Labelled;
 use cobra_train::input::{ReportedEstimate, ScoreReport, read_score_report};
@@ -30,9 +31,20 @@ pub(super) struct LeftOut {
 /// The estimates that the arguments ask for.
 pub(super) fn evidence(
     arguments: &CalibrateArguments,
+    template: &Template<'_>,
     terminal: &Terminal,
 ) -> Result<Evidence, Failure> {
-    let path = &arguments.labelled;
+    match (&arguments.labelled, arguments.simulate) {
+        (Some(path), _) => labelled(arguments, path, terminal),
+        (None, count) => simulated::evidence(arguments, template, count.unwrap_or(0), terminal),
+    }
+}
+
+fn labelled(
+    arguments: &CalibrateArguments,
+    path: &Path,
+    terminal: &Terminal,
+) -> Result<Evidence, Failure> {
     let report = read_score_report(path)?;
     let (labelled, left_out) = select(&report.estimates, arguments, path)?;
     for (count, why) in [
@@ -49,7 +61,10 @@ pub(super) fn evidence(
         labelled,
         left_out,
         source: CalibrationSource::Labelled,
-        provenance: provenance(arguments, &report)?,
+        provenance: match asked_provenance(arguments)? {
+            Some(text) => text,
+            None => shortened(provenance(arguments, path, &report)),
+        },
     })
 }
 
@@ -89,29 +104,35 @@ fn select(
     }
 }
 
-fn provenance(arguments: &CalibrateArguments, report: &ScoreReport) -> Result<String, Failure> {
-    if let Some(text) = &arguments.provenance {
-        return if text.len() <= PROVENANCE_CAPACITY {
-            Ok(text.clone())
-        } else {
-            Err(Failure::Usage(format!(
-                "--provenance has {} bytes, at most {PROVENANCE_CAPACITY} fit into a template",
-                text.len()
-            )))
-        };
+/// The words that the arguments say, if they say some.
+pub(super) fn asked_provenance(arguments: &CalibrateArguments) -> Result<Option<String>, Failure> {
+    match &arguments.provenance {
+        Some(text) if text.len() > PROVENANCE_CAPACITY => Err(Failure::Usage(format!(
+            "--provenance has {} bytes, at most {PROVENANCE_CAPACITY} fit into a template",
+            text.len()
+        ))),
+        asked => Ok(asked.clone()),
     }
-    let mut text = match &report.dataset {
+}
+
+fn provenance(arguments: &CalibrateArguments, path: &Path, report: &ScoreReport) -> String {
+    let text = match &report.dataset {
         Some(name) => name.clone(),
         None => {
-            let name = arguments.labelled.file_name().unwrap_or_default();
+            let name = path.file_name().unwrap_or_default();
             name.to_string_lossy().into_owned()
         }
     };
-    if let Some(id) = arguments.object {
-        text = format!("{text}, object {id}");
+    match arguments.object {
+        Some(id) => format!("{text}, object {id}"),
+        None => text,
     }
+}
+
+/// As much of the words as fits into a template.
+pub(super) fn shortened(mut text: String) -> String {
     while text.len() > PROVENANCE_CAPACITY {
         text.pop();
     }
-    Ok(text)
+    text
 }

@@ -1,0 +1,78 @@
+//! The labelled estimates of `--simulate`.
+
+use super::evidence::{Evidence, LeftOut, asked_provenance, shortened};
+use super::{CalibrateArguments, MasksArgument};
+use crate::cli::failure::Failure;
+use crate::cli::report::plural;
+use crate::cli::terminal::Terminal;
+use cobra_infer::Template;
+use cobra_infer::depth::{DepthError, DepthSettings, TemplateSurface};
+use cobra_infer::template::{CalibrationSource, DecodedTerm};
+use cobra_train::progress::Progress;
+use cobra_train::simulation::{Simulation, simulate};
+use cobra_train::surface::read_mesh;
+use cobra_train::train::LARGEST_TEMPLATE;
+
+/// The noise on simulated depth unless somebody says otherwise, in mm.
+const DEPTH_NOISE: f32 = 1.5;
+
+pub(super) fn evidence(
+    arguments: &CalibrateArguments,
+    template: &Template<'_>,
+    count: u32,
+    terminal: &Terminal,
+) -> Result<Evidence, Failure> {
+    let refuse =
+        |error: DepthError| Failure::BadInput(format!("{}: {error}", arguments.template.display()));
+    let mesh = arguments.mesh.as_deref().map(read_mesh).transpose()?;
+    let mut room = vec![DecodedTerm::default(); template.decoded_len()];
+    let decoded = template.decoded(&mut room);
+    let template = decoded.as_ref().unwrap_or(template);
+    let settings = DepthSettings {
+        minimum_points: arguments.min_points,
+        ..DepthSettings::for_template(template)
+    };
+    let noise = settings
+        .noise
+        .at(template.diameter(), 0.0)
+        .map_err(refuse)?;
+    let surface = TemplateSurface::<LARGEST_TEMPLATE>::new(template, noise).map_err(refuse)?;
+    let sensor = arguments.depth_noise.unwrap_or(DEPTH_NOISE);
+    let masked = arguments.masks == MasksArgument::Simulated;
+    let simulation = Simulation {
+        estimates: count as usize,
+        noise: f64::from(sensor / template.unit().millimetres()),
+        masked,
+        symmetric: arguments.symmetric,
+        seed: arguments.seed,
+    };
+    terminal.start("simulating estimates", 1);
+    let found = simulate(&surface, mesh.as_ref(), &settings, &simulation).map_err(refuse)?;
+    terminal.finish();
+    let known = found
+        .iter()
+        .filter(|one| one.valid_pixels >= arguments.min_points);
+    let labelled: Vec<_> = known.map(|one| one.labelled).collect();
+    let too_few_pixels = found.len() - labelled.len();
+    if too_few_pixels > 0 {
+        let estimates = plural(too_few_pixels, "estimate");
+        terminal.say(&format!("{estimates} with too few valid pixels left out"));
+    }
+    let words = [
+        "simulated",
+        if mesh.is_some() { "mesh" } else { "template" },
+        if masked { "mask" } else { "silhouette" },
+    ];
+    Ok(Evidence {
+        labelled,
+        left_out: LeftOut {
+            too_few_pixels,
+            ..LeftOut::default()
+        },
+        source: CalibrationSource::Simulated,
+        provenance: match asked_provenance(arguments)? {
+            Some(text) => text,
+            None => shortened(format!("{}, {sensor} mm", words.join(", "))),
+        },
+    })
+}
