@@ -1,6 +1,7 @@
 //! The command `cobra`, run as its users run it.
 
 mod auto;
+mod bop;
 mod calibrate;
 mod camera_input;
 mod demo;
