@@ -24,7 +24,7 @@
 //! A product of the three orders poses as well, but a threshold on it that was found on some objects accepts
 //! four times as many wrong poses of others as it should (`docs/DEPTH.md`).
 //!
-//! σ² is σ̂_k² + σ_m². By default σ_m is 8 % of the diameter: how far from the surface a right pose may put
+//! σ² is σ̂_k² + σ_m². By default σ_m is 6 % of the diameter: how far from the surface a right pose may put
 //! what was seen. With the noise of the sensor alone nearly every pose that a gripper could work with would
 //! have confidence 0. It belongs to this module only.
 

@@ -83,7 +83,7 @@ impl DepthSettings {
     /// More cells than there are pixels of most objects.
     pub const LARGEST_SIDE: u16 = 256;
 
-    /// 8 % of the diameter, a buffer of 32² cells, four steps on 150 pixels, at least ten points, and no
+    /// The noise of templates that do not say theirs, a buffer of 32² cells, four steps on 150 pixels, at least ten points, and no
     /// thresholds.
     pub const DEFAULT: Self = Self {
         noise: Noise::Share(DepthRecord::NOISE_SHARE),

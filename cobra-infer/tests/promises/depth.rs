@@ -15,7 +15,7 @@ use proptest::prelude::*;
 
 const RADIUS: f32 = 40.0;
 
-/// σ_m of the defaults: 8 % of 80.
+/// σ_m: 8 % of 80.
 const SIGMA: f32 = 6.4;
 
 /// A sphere that speaks in every direction, its template's own σ next to nothing.
@@ -91,6 +91,7 @@ impl DepthImage for Scene {
 
 fn settings() -> DepthSettings {
     DepthSettings {
+        noise: Noise::Share(0.08),
         thresholds: Some(Thresholds {
             accept: 0.6,
             reject: 0.3,
@@ -286,7 +287,11 @@ fn between_the_thresholds_and_without_them_the_answer_is_undecided() {
     assert!((0.3..0.6).contains(&report.confidence), "{report:?}");
     let between = Decision::Undecided(Doubt::BetweenThresholds);
     assert_eq!(report.decision, between);
-    let report = run(&pose(0.0), &scene, true, &DepthSettings::DEFAULT);
+    let without = DepthSettings {
+        thresholds: None,
+        ..settings()
+    };
+    let report = run(&pose(0.0), &scene, true, &without);
     let unknown = Decision::Undecided(Doubt::NotCalibrated);
     assert_eq!(report.decision, unknown);
 }
