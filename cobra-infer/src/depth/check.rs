@@ -130,6 +130,7 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         })
     }
 
+    #[inline(never)]
     fn visible<'m>(
         &self,
         pose: &Pose,
@@ -151,6 +152,7 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
     }
 
     /// The first look at all pixels gives the forward likelihood; the steps look at some of them.
+    #[inline(never)]
     fn refine(
         &self,
         pose: &Pose,
@@ -226,6 +228,7 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
     }
 
     /// ADD between two poses, over points of the surface.
+    #[inline(never)]
     fn displacement(&self, pose: &Pose, refined: &Pose, alive: &mut impl FnMut()) -> f32 {
         let (mut sum, mut count) = (0.0_f32, 0_u32);
         let spacing = DISPLACEMENT_SPACING * self.surface.radius();
@@ -324,7 +327,12 @@ pub fn check_depth<const COMPONENTS: usize>(
     let [x, y, z] = template.centre();
     let depth = pose.to_camera(&Point3::new(x, y, z)).z;
     let noise = settings.noise.at(template.diameter(), depth)?;
-    let surface = TemplateSurface::<COMPONENTS>::new(template, noise)?;
-    let check = DepthCheck::new(&surface, camera, settings)?;
+    // Used inside its result: moved out, it would lie on the stack twice.
+    let surface = TemplateSurface::<COMPONENTS>::new(template, noise);
+    let surface = match &surface {
+        Ok(surface) => surface,
+        Err(error) => return Err(*error),
+    };
+    let check = DepthCheck::new(surface, camera, settings)?;
     check.run(pose, observed, image, cells, &mut || {})
 }
