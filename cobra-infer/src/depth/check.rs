@@ -160,10 +160,9 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         report: &mut DepthReport,
         alive: &mut impl FnMut(),
     ) {
-        let every = pixels
-            .count()
-            .div_ceil(u32::from(self.settings.step_pixels))
-            .max(1);
+        // The settings were checked, which is not seen from here.
+        let step_pixels = u32::from(self.settings.step_pixels.max(1));
+        let every = pixels.count().div_ceil(step_pixels).max(1);
         let (all, mut equations) = self.first_look(pose, pixels, every, alive);
         report.pixels = all.count();
         report.silent = all.silent();
