@@ -1029,7 +1029,8 @@ typedef struct CobraDepthObserved {
  */
 typedef struct CobraDepthReport {
   /**
-   * exp(-estimated_error^2/2 noise^2), the least of three likelihoods, from 0 to 1.
+   * exp(-estimated_error^2/2 noise^2), the least of three likelihoods, from 0 to 1; 0 where it would rest on
+   * fewer than `minimum_points`.
    */
   float confidence;
   /**

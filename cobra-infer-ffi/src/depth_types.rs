@@ -130,7 +130,8 @@ pub enum CobraCause {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct CobraDepthReport {
-    /// exp(-estimated_error^2/2 noise^2), the least of three likelihoods, from 0 to 1.
+    /// exp(-estimated_error^2/2 noise^2), the least of three likelihoods, from 0 to 1; 0 where it would rest on
+    /// fewer than `minimum_points`.
     pub confidence: f32,
     /// The mean likelihood of the observed pixels, put back onto the surface.
     pub forward: f32,
