@@ -13,7 +13,7 @@ const MEMORY: u64 = 48 * 1024;
 /// The most instructions of a check, by the names that `tests/parts/objects.sh` gives templates.
 const INSTRUCTIONS: [(&str, u64); 4] = [
     ("terms", 18_000_000),
-    ("few-terms", 14_000_000),
+    ("few-terms", 24_000_000),
     ("maps", 6_000_000),
     ("few-maps", 6_000_000),
 ];
