@@ -2,6 +2,7 @@
 //!
 //! Needs `cobra-infer` alone, so that a program in Rust can take this file and print the same texts.
 
+use cobra_infer::depth::DepthError;
 use cobra_infer::{CameraError, PoseError, ScoreError, TemplateError};
 use core::ffi::CStr;
 
@@ -19,7 +20,7 @@ pub enum CobraStatus {
     NullPointer = 1,
     /// A pointer is not aligned as its type asks for.
     Misaligned = 2,
-    /// The memory for a handle is smaller than the handle.
+    /// The memory for a handle is smaller than the handle, or that for a depth buffer too small.
     MemoryTooSmall = 3,
     /// Bytes, or the memory for a handle, would reach past the end of the address space.
     LengthTooLarge = 4,
@@ -137,13 +138,30 @@ pub enum CobraStatus {
     SettingsSigmaKind = 406,
     /// The settings' `threshold` is no CobraThreshold.
     SettingsThreshold = 407,
+    /// The depth settings' `noise_kind` is no CobraNoiseKind.
+    SettingsNoiseKind = 408,
+    /// The depth settings' `has_thresholds` is neither 0 nor 1.
+    SettingsHasThresholds = 409,
+
+    /// The template's components may speak everywhere: it does not say where its surface is.
+    DepthNoValidity = 500,
+    /// The measurement noise is not a positive number at the object's depth.
+    DepthNoise = 501,
+    /// The depth buffer has fewer than 8 or more than 256 cells along a side.
+    DepthSide = 502,
+    /// Refinement has no pixel a step.
+    DepthStepPixels = 503,
+    /// The thresholds are not 0 <= reject <= accept <= 1.
+    DepthThresholds = 504,
+    /// The depth image has no column, or its scale is not a positive number.
+    DepthImage = 505,
 }
 
 use CobraStatus as S;
 
 impl CobraStatus {
     /// Every status, in the order of its number.
-    pub(crate) const ALL: [Self; 60] = [
+    pub(crate) const ALL: [Self; 68] = [
         S::Ok,
         S::NullPointer,
         S::Misaligned,
@@ -204,6 +222,14 @@ impl CobraStatus {
         S::SettingsAssignment,
         S::SettingsSigmaKind,
         S::SettingsThreshold,
+        S::SettingsNoiseKind,
+        S::SettingsHasThresholds,
+        S::DepthNoValidity,
+        S::DepthNoise,
+        S::DepthSide,
+        S::DepthStepPixels,
+        S::DepthThresholds,
+        S::DepthImage,
     ];
 
     /// The status of a number, if it is one.
@@ -282,6 +308,14 @@ impl CobraStatus {
             S::SettingsAssignment => c"the settings' assignment is none of CobraAssignment",
             S::SettingsSigmaKind => c"the settings' sigma_kind is none of CobraSigmaKind",
             S::SettingsThreshold => c"the settings' threshold is none of CobraThreshold",
+            S::SettingsNoiseKind => c"the depth settings' noise_kind is none of CobraNoiseKind",
+            S::SettingsHasThresholds => c"the depth settings' has_thresholds is neither 0 nor 1",
+            S::DepthNoValidity => c"the template does not say where its surface is",
+            S::DepthNoise => c"the measurement noise is not a positive number",
+            S::DepthSide => c"a depth buffer has 8 to 256 cells along a side",
+            S::DepthStepPixels => c"refinement needs at least one pixel a step",
+            S::DepthThresholds => c"thresholds must be 0 <= reject <= accept <= 1",
+            S::DepthImage => c"the depth image has no column, or no positive scale",
         }
     }
 }
@@ -349,6 +383,20 @@ impl From<PoseError> for CobraStatus {
             PoseError::NotFinite => S::PoseNotFinite,
             PoseError::NotARotation { .. } => S::PoseNotARotation,
             PoseError::Reflection { .. } => S::PoseReflection,
+        }
+    }
+}
+
+impl From<DepthError> for CobraStatus {
+    fn from(error: DepthError) -> Self {
+        match error {
+            DepthError::Score(error) => error.into(),
+            DepthError::NoValidity => S::DepthNoValidity,
+            DepthError::Noise { .. } => S::DepthNoise,
+            DepthError::Side { .. } => S::DepthSide,
+            DepthError::StepPixels => S::DepthStepPixels,
+            DepthError::Thresholds { .. } => S::DepthThresholds,
+            DepthError::Cells { .. } => S::MemoryTooSmall,
         }
     }
 }

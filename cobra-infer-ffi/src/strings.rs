@@ -24,6 +24,30 @@ pub extern "C" fn cobra_reason_string(reason: u32) -> *const c_char {
     reason_text(reason).as_ptr()
 }
 
+/// What a cause says, as a phrase; its number is in the report. Never NULL, also for a number that is
+/// no CobraCause.
+#[unsafe(no_mangle)]
+pub extern "C" fn cobra_cause_string(cause: u32) -> *const c_char {
+    cause_text(cause).as_ptr()
+}
+
+pub(crate) const fn cause_text(cause: u32) -> &'static CStr {
+    match cause {
+        0 => c"nothing was checked",
+        1 => c"what was observed fits the pose",
+        2 => c"the pose puts the object behind or around the camera",
+        3 => c"wrong scale: measured depth and the pose have different units",
+        4 => c"another object stands in front of it",
+        5 => c"the camera sees past it: nothing is where the pose puts it",
+        6 => c"offset along the ray",
+        7 => c"offset across the ray",
+        8 => c"turned",
+        9 => c"the shape does not fit, and no small motion makes it fit",
+        10 => c"most of it is hidden behind something else",
+        _ => c"unknown cause",
+    }
+}
+
 pub(crate) const fn decision_text(decision: u32) -> &'static CStr {
     match decision {
         0 => c"undecided",

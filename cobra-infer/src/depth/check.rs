@@ -8,7 +8,7 @@ use super::refine::Equations;
 use super::report::DepthReport;
 use super::reverse::{Evidence, Sight, look_up};
 use super::settings::DepthSettings;
-use super::surface::{Surface, TemplateSurface};
+use super::surface::{Nearby, Surface, TemplateSurface};
 use super::zbuffer::{Cell, Window, ZBuffer};
 use crate::camera::Camera;
 use crate::math::Real;
@@ -130,6 +130,7 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         })
     }
 
+    #[inline(never)]
     fn visible<'m>(
         &self,
         pose: &Pose,
@@ -150,7 +151,8 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         buffer
     }
 
-    /// The first look at all pixels gives the forward likelihood; the steps then look at some of them.
+    /// The first look at all pixels gives the forward likelihood; the steps look at some of them.
+    #[inline(never)]
     fn refine(
         &self,
         pose: &Pose,
@@ -158,17 +160,13 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         report: &mut DepthReport,
         alive: &mut impl FnMut(),
     ) {
-        let mut equations = self.equations(pose, pixels, 1, alive);
-        report.pixels = equations.count();
-        report.silent = equations.silent();
-        report.forward = equations.likelihood();
-        let every = report
-            .pixels
-            .div_ceil(u32::from(self.settings.step_pixels))
-            .max(1);
-        if every > 1 {
-            equations = self.equations(pose, pixels, every, alive);
-        }
+        // The settings were checked, which is not seen from here.
+        let step_pixels = u32::from(self.settings.step_pixels.max(1));
+        let every = pixels.count().div_ceil(step_pixels).max(1);
+        let (all, mut equations) = self.first_look(pose, pixels, every, alive);
+        report.pixels = all.count();
+        report.silent = all.silent();
+        report.forward = all.likelihood();
         for _ in 0..self.settings.steps {
             let Some(next) = equations.step(&report.refined) else {
                 break;
@@ -178,6 +176,28 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         }
         report.residual = equations.residual();
         report.displacement = self.displacement(pose, &report.refined, alive);
+    }
+
+    /// The equations of all pixels, and of every so many-th: what a pixel comes to is asked once for both.
+    fn first_look(
+        &self,
+        pose: &Pose,
+        pixels: &Pixels<'_, impl DepthImage>,
+        every: u32,
+        alive: &mut impl FnMut(),
+    ) -> (Equations, Equations) {
+        let (mut all, mut some) = (Equations::new(self.surface), Equations::new(self.surface));
+        let mut count = 0_u32;
+        let mut turn = Turn::new(every);
+        pixels.each(1, &mut |pixel| {
+            feed(&mut count, alive);
+            let nearby = self.nearby(pose, pixel);
+            all.add(nearby);
+            if turn.comes() {
+                some.add(nearby);
+            }
+        });
+        (all, some)
     }
 
     fn equations(
@@ -191,17 +211,23 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         let mut count = 0_u32;
         pixels.each(every, &mut |pixel| {
             feed(&mut count, alive);
-            let point = self
-                .camera
-                .back_project_depth(pose, &pixel.pixel(), pixel.depth);
-            // What is infinitely far away lies on no surface.
-            let nearby = point.and_then(|point| Some((point, self.surface.nearby(&point)?)));
-            equations.add(nearby);
+            equations.add(self.nearby(pose, pixel));
         });
         equations
     }
 
+    /// A pixel's point on the object, and what the surface says of it.
+    #[inline(never)]
+    fn nearby(&self, pose: &Pose, pixel: &DepthPixel) -> Option<(Point3<f32>, Nearby)> {
+        // What is infinitely far away lies on no surface.
+        let point = self
+            .camera
+            .back_project_depth(pose, &pixel.pixel(), pixel.depth)?;
+        Some((point, self.surface.nearby(&point)?))
+    }
+
     /// ADD between two poses, over points of the surface.
+    #[inline(never)]
     fn displacement(&self, pose: &Pose, refined: &Pose, alive: &mut impl FnMut()) -> f32 {
         let (mut sum, mut count) = (0.0_f32, 0_u32);
         let spacing = DISPLACEMENT_SPACING * self.surface.radius();
@@ -224,6 +250,28 @@ fn feed(count: &mut u32, alive: &mut impl FnMut()) {
     }
 }
 
+/// Every so many-th, from the first on.
+struct Turn {
+    every: u32,
+    next: u32,
+}
+
+impl Turn {
+    fn new(every: u32) -> Self {
+        Self { every, next: 0 }
+    }
+
+    #[inline]
+    fn comes(&mut self) -> bool {
+        let comes = self.next == 0;
+        if comes {
+            self.next = self.every;
+        }
+        self.next = self.next.saturating_sub(1);
+        comes
+    }
+}
+
 /// The observed pixels, wherever they come from.
 struct Pixels<'a, I> {
     observed: Observed<'a>,
@@ -233,18 +281,20 @@ struct Pixels<'a, I> {
 }
 
 impl<I: DepthImage> Pixels<'_, I> {
+    /// How many have a depth.
+    fn count(&self) -> u32 {
+        let mut count = 0_u32;
+        self.each(1, &mut |_| count = count.saturating_add(1));
+        count
+    }
+
     /// Every so many-th that has a depth.
     fn each(&self, every: u32, act: &mut impl FnMut(&DepthPixel)) {
-        let mut next = 0_u32;
+        let mut turn = Turn::new(every);
         let mut take = |pixel: &DepthPixel| {
-            if pixel.depth.is_nan() || pixel.depth <= 0.0 {
-                return;
-            }
-            if next == 0 {
+            if !pixel.depth.is_nan() && pixel.depth > 0.0 && turn.comes() {
                 act(pixel);
-                next = every;
             }
-            next = next.saturating_sub(1);
         };
         match self.observed {
             Observed::Pixels(pixels) => pixels.iter().for_each(take),
@@ -276,7 +326,12 @@ pub fn check_depth<const COMPONENTS: usize>(
     let [x, y, z] = template.centre();
     let depth = pose.to_camera(&Point3::new(x, y, z)).z;
     let noise = settings.noise.at(template.diameter(), depth)?;
-    let surface = TemplateSurface::<COMPONENTS>::new(template, noise)?;
-    let check = DepthCheck::new(&surface, camera, settings)?;
+    // Used inside its result: moved out, it would lie on the stack twice.
+    let surface = TemplateSurface::<COMPONENTS>::new(template, noise);
+    let surface = match &surface {
+        Ok(surface) => surface,
+        Err(error) => return Err(*error),
+    };
+    let check = DepthCheck::new(surface, camera, settings)?;
     check.run(pose, observed, image, cells, &mut || {})
 }

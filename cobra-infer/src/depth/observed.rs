@@ -5,7 +5,9 @@
 
 use nalgebra::Point2;
 
-/// A pixel that shows the object, as a mask says, and the depth measured there.
+/// A pixel that shows the object, as a mask says, and the depth measured there: eight bytes, its fields in
+/// this order.
+#[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DepthPixel {

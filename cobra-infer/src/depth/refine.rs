@@ -119,6 +119,7 @@ impl Equations {
     }
 
     /// The pose after the step; `None` where the equations have no solution.
+    #[inline(never)]
     pub(super) fn step(&self, pose: &Pose) -> Option<Pose> {
         let mut matrix = Matrix6::<f32>::zeros();
         let mut products = self.products.iter();

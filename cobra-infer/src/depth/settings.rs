@@ -119,8 +119,11 @@ impl DepthSettings {
         self.side as usize * self.side as usize
     }
 
-    /// Whether every number lies in its range.
-    pub(super) fn check(&self) -> Result<(), DepthError> {
+    /// Whether every number but the noise's, which depend on the object, lies in its range.
+    ///
+    /// # Errors
+    /// [`DepthError`] of the one that does not.
+    pub fn check(&self) -> Result<(), DepthError> {
         if !(Self::SMALLEST_SIDE..=Self::LARGEST_SIDE).contains(&self.side) {
             return Err(DepthError::Side { found: self.side });
         }

@@ -62,11 +62,17 @@ impl<'t, const COMPONENTS: usize> TemplateSurface<'t, COMPONENTS> {
         }
         let mut settings = Settings::for_template(template, 1.0);
         settings.sigma = Sigma::Template { noise };
-        Ok(Self {
+        Mixture::<COMPONENTS>::check(template, &settings)?;
+        // Filled inside the result: a mixture moved into it would lie on the stack twice.
+        let mut result = Ok(Self {
             template,
-            mixture: Mixture::new(template, &settings)?,
+            mixture: Mixture::unprepared(template, &settings),
             noise,
-        })
+        });
+        if let Ok(surface) = &mut result {
+            surface.mixture.prepare(&settings);
+        }
+        result
     }
 }
 

@@ -159,7 +159,7 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
         if let Some(validities) = self.template.validities()
             && self.assignment == Assignment::Maximum
         {
-            self.reach.prune(validities);
+            self.reach.prune(validities, self.likelihood);
         }
     }
 
