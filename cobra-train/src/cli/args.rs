@@ -1,5 +1,6 @@
 //! The arguments of `cobra`, with the help that goes with them.
 
+use super::ambiguity::AmbiguityArguments;
 use super::calibrate::CalibrateArguments;
 use super::choices::{
     AssignmentArgument, BudgetArgument, ExponentArgument, ExportFormat, KernelArgument,
@@ -52,6 +53,8 @@ pub(crate) enum Command {
     Score(ScoreArguments),
     /// Measure how well a template reproduces a mesh or a point cloud
     Eval(EvalArguments),
+    /// Find wrong poses that score as well as the true one: symmetries, and what is nearly one
+    Ambiguity(AmbiguityArguments),
     /// Find the thresholds for a false-accept rate on labelled estimates, and store them in a template
     Calibrate(CalibrateArguments),
     /// Show what is in a template, its size and its cost

@@ -3,6 +3,7 @@
 //! Owns what is particular to a terminal: arguments, progress, tables, exit codes. Everything that
 //! another program could want is in the library.
 
+mod ambiguity;
 mod args;
 mod calibrate;
 mod choices;
@@ -37,6 +38,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Train(arguments) => train::run(arguments, &terminal),
         Command::Score(arguments) => score::run(arguments, &terminal),
         Command::Eval(arguments) => eval::run(arguments, &terminal),
+        Command::Ambiguity(arguments) => ambiguity::run(arguments, &terminal),
         Command::Calibrate(arguments) => calibrate::run(arguments, &terminal),
         Command::Inspect(arguments) => inspect::run(arguments, &terminal),
         Command::Export(arguments) => export::run(arguments, &terminal),
