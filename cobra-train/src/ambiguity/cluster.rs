@@ -8,7 +8,7 @@ use super::AmbiguityError;
 use super::gauge::{Gauge, twist};
 use super::settle::{Settled, settle};
 use super::slide::Family;
-use super::views::{Judge, Room};
+use super::views::{Judge, Look, Room};
 use crate::bop::symmetry::Axis;
 use cobra_infer::depth::Surface;
 use nalgebra::Isometry3;
@@ -143,7 +143,7 @@ fn confirm<S: Surface + Sync>(
         .par_iter()
         .map_init(
             || judge.room(),
-            |room: &mut Room, view| settle(judge, gauge, view, leader, room),
+            |room: &mut Room, view| settle(judge, gauge, Look::Full, view, leader, room),
         )
         .collect::<Result<_, _>>()?;
     let stayed: Vec<Settled> = tried

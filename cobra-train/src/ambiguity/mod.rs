@@ -17,6 +17,7 @@
 
 mod cluster;
 mod gauge;
+mod measure;
 mod rotations;
 mod settle;
 mod slide;
@@ -24,28 +25,28 @@ mod stated;
 #[cfg(test)]
 mod tests;
 mod views;
+mod words;
 
 pub use gauge::Screw;
 pub use slide::{Path, Range};
 
 use crate::bop::symmetry::Symmetries;
 use crate::depth::SampledSurface;
-use crate::pose::{ModelPoints, add, add_s, mssd};
 use crate::progress::Progress;
 use crate::random::{Purpose, stream};
 use crate::surface::Mesh;
-use cluster::{Accepted, Cluster, Freedom, clusters};
+use cluster::{Accepted, Freedom, clusters};
 use cobra_infer::depth::{DepthError, DepthSettings, Surface};
 use gauge::Gauge;
+use measure::Measure;
 use nalgebra::{Isometry3, Quaternion, UnitQuaternion};
 use rayon::prelude::*;
 use settle::settle;
 use slide::{Family, families};
-use stated::Stated;
-use views::{Judge, Room};
+use views::{Judge, Look, Room};
 
-/// Candidates a view unless the caller says otherwise: 15° apart.
-pub const CANDIDATES: usize = 4_608;
+/// Candidates a view unless the caller says otherwise: 24° apart, which refinement bridges.
+pub const CANDIDATES: usize = 1_152;
 
 /// Which pixels show the object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,7 +78,7 @@ pub struct SearchOptions {
 }
 
 impl SearchOptions {
-    /// Twelve views, rotations 15° apart, all pixels that show the object, depth without noise, nine
+    /// Twelve views, rotations 24° apart, all pixels that show the object, depth without noise, nine
     /// tenths of the true pose's confidence.
     #[must_use]
     pub fn new(settings: DepthSettings) -> Self {
@@ -222,18 +223,10 @@ pub fn find_ambiguities<S: Surface + Sync>(
     let accepted = search(&judge, &gauge, &families, options, progress)?;
     let freedom = Freedom::new(&gauge, &families);
     let clusters = clusters(&judge, &freedom, accepted)?;
-    let measure = Measure {
-        points: ModelPoints::new(mesh.vertices().to_vec()),
-        stated: symmetries.map(|symmetries| Stated::new(&gauge, symmetries)),
-        gauge: &gauge,
-    };
+    let measure = Measure::new(mesh, &gauge, symmetries);
     let mut found: Vec<Ambiguity> = families.iter().map(|f| measure.family(f)).collect();
     found.sort_by_key(|ambiguity| std::cmp::Reverse(ambiguity.views));
     found.extend(clusters.iter().map(|cluster| measure.cluster(cluster)));
-    let stated_found = measure.stated.as_ref().map_or_else(Vec::new, |stated| {
-        let motions: Vec<Isometry3<f64>> = clusters.iter().map(|c| c.motion).collect();
-        stated.found(&families, &motions)
-    });
     let least = judge
         .views
         .iter()
@@ -247,7 +240,7 @@ pub fn find_ambiguities<S: Surface + Sync>(
         truth,
         least: f64::from(least),
         found,
-        stated_found,
+        stated_found: measure.stated_found(&families, &clusters),
     })
 }
 
@@ -276,7 +269,7 @@ fn search<S: Surface + Sync>(
             .map_init(
                 || judge.room(),
                 |room: &mut Room, start| {
-                    let settled = settle(judge, gauge, view, start, room)?;
+                    let settled = settle(judge, gauge, Look::Rough, view, start, room)?;
                     let wrong = settled.filter(|settled| {
                         let explained = |f: &Family| f.explains(gauge, index, &settled.motion);
                         gauge.is_wrong(&settled.motion) && !families.iter().any(explained)
@@ -293,59 +286,4 @@ fn search<S: Surface + Sync>(
     }
     progress.finish();
     Ok(accepted)
-}
-
-/// What is told of what was found.
-struct Measure<'g> {
-    points: ModelPoints,
-    stated: Option<Stated<'g>>,
-    gauge: &'g Gauge,
-}
-
-impl Measure<'_> {
-    fn family(&self, family: &Family) -> Ambiguity {
-        let what = What::Path {
-            path: family.path,
-            range: family.range(),
-        };
-        Ambiguity {
-            views: family.ranges.iter().flatten().count(),
-            confidence: family.confidences / family.count.max(1) as f64,
-            ..self.of(what, &family.motions(self.gauge))
-        }
-    }
-
-    fn cluster(&self, cluster: &Cluster) -> Ambiguity {
-        let motion = cluster.motion;
-        let what = What::Motion {
-            motion,
-            screw: self.gauge.screw(&motion),
-        };
-        Ambiguity {
-            views: cluster.confidences.len(),
-            confidence: cluster.confidence(),
-            ..self.of(what, &[motion])
-        }
-    }
-
-    fn of(&self, what: What, motions: &[Isometry3<f64>]) -> Ambiguity {
-        let none = Isometry3::identity();
-        let points = self.points.points();
-        let largest = |error: &(dyn Fn(&Isometry3<f64>) -> f64 + Sync)| {
-            let errors: Vec<f64> = motions.par_iter().map(error).collect();
-            errors.into_iter().fold(0.0, f64::max)
-        };
-        let stated = self.stated.as_ref();
-        Ambiguity {
-            what,
-            views: 0,
-            confidence: 0.0,
-            add: largest(&|motion| add(points, &none, motion)),
-            add_s: largest(&|motion| add_s(&self.points, &none, motion)),
-            mssd: largest(&|motion| mssd(points, &none, motion, &[])),
-            mssd_stated: stated
-                .map(|stated| largest(&|motion| mssd(points, &none, motion, stated.all()))),
-            stated: stated.map(|stated| motions.iter().all(|motion| stated.excuses(motion))),
-        }
-    }
 }

@@ -7,7 +7,7 @@
 
 use super::AmbiguityError;
 use super::gauge::{Gauge, single, twist, upwards};
-use super::views::{Judge, View, camera};
+use super::views::{Judge, Look, View, camera};
 use crate::bop::symmetry::Axis;
 use cobra_infer::depth::Surface;
 use nalgebra::{
@@ -272,7 +272,7 @@ fn follow<S: Surface + Sync>(
         for index in 1..=most {
             let amount = sign * f64::from(index) * step;
             let motion = path.at(amount);
-            let report = judge.report(view, &motion, &mut room)?;
+            let report = judge.report(Look::Full, view, &motion, &mut room)?;
             let accepted = report.filter(|report| report.confidence >= view.least);
             let Some(report) = accepted else { break };
             *end = amount;

@@ -10,7 +10,9 @@ use crate::input::ImageSize;
 use crate::random::{Purpose, stream};
 use crate::surface::{Mesh, fibonacci_sphere};
 use cobra_infer::Camera;
-use cobra_infer::depth::{Cell, DepthCheck, DepthPixel, DepthReport, Observed, Surface};
+use cobra_infer::depth::{
+    Cell, DepthCheck, DepthPixel, DepthReport, DepthSettings, Observed, Surface,
+};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::RngExt;
 use std::f64::consts::TAU;
@@ -31,6 +33,13 @@ const SIZE: ImageSize = ImageSize {
 /// How many of the pixels that show the object are used, as when results are scored.
 const PIXELS: usize = 500;
 
+/// What is used of them while a candidate is still on its way, and of them in a step …
+const FEW_PIXELS: usize = 100;
+const FEW_STEP_PIXELS: u16 = 50;
+
+/// … and cells along a side of the depth buffer: together a quarter of the time.
+const FEW_CELLS: u16 = 16;
+
 /// The camera that all views are taken with: the window's middle is where it looks.
 pub(super) fn camera() -> Camera {
     let focal_length = FOCAL_LENGTH as f32;
@@ -43,6 +52,7 @@ pub(super) struct View {
     pub(super) truth: Isometry3<f64>,
     depth: DepthImage,
     pixels: Vec<DepthPixel>,
+    few_pixels: Vec<DepthPixel>,
     /// The true pose's confidence.
     pub(super) confidence: f32,
     /// What a confidence must reach.
@@ -86,9 +96,19 @@ fn truths(mesh: &Mesh, options: &SearchOptions) -> Vec<Isometry3<f64>> {
 pub(super) struct Judge<'s, S> {
     pub(super) surface: &'s S,
     check: DepthCheck<'s, S>,
+    rough: DepthCheck<'s, S>,
     cells: usize,
     masks: Masks,
     pub(super) views: Vec<View>,
+}
+
+/// How closely is looked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Look {
+    /// At few pixels: good enough to find the way.
+    Rough,
+    /// As poses are checked.
+    Full,
 }
 
 /// Scratch memory of a thread.
@@ -115,25 +135,34 @@ impl<'s, S: Surface + Sync> Judge<'s, S> {
                     scene: 0,
                     image,
                 });
+                let mask = frame.visible(0);
                 View {
                     truth: pose,
-                    pixels: frame.depth().pixels_in(&frame.visible(0), PIXELS),
+                    pixels: frame.depth().pixels_in(&mask, PIXELS),
+                    few_pixels: frame.depth().pixels_in(&mask, FEW_PIXELS),
                     depth: frame.depth().clone(),
                     confidence: 0.0,
                     least: 1.0,
                 }
             })
             .collect();
+        let few = DepthSettings {
+            side: options.settings.side.min(FEW_CELLS),
+            step_pixels: options.settings.step_pixels.min(FEW_STEP_PIXELS),
+            ..options.settings
+        };
         let mut judge = Self {
             surface,
+            rough: DepthCheck::new(surface, &camera(), &few)?,
             check: DepthCheck::new(surface, &camera(), &options.settings)?,
             cells: options.settings.cells(),
             masks: options.masks,
             views,
         };
+        let none = Isometry3::identity();
         let mut room = judge.room();
         for index in 0..judge.views.len() {
-            let report = judge.report(&judge.views[index], &Isometry3::identity(), &mut room)?;
+            let report = judge.report(Look::Full, &judge.views[index], &none, &mut room)?;
             let confidence = report.map_or(0.0, |report| report.confidence);
             let accept = options.settings.thresholds.map(|both| both.accept);
             let view = &mut judge.views[index];
@@ -151,6 +180,7 @@ impl<'s, S: Surface + Sync> Judge<'s, S> {
     /// Checks the pose that a motion leads to; `None` where it is none.
     pub(super) fn report(
         &self,
+        look: Look,
         view: &View,
         motion: &Isometry3<f64>,
         room: &mut Room,
@@ -158,13 +188,15 @@ impl<'s, S: Surface + Sync> Judge<'s, S> {
         let Some(pose) = single(&(view.truth * motion)) else {
             return Ok(None);
         };
+        let (check, pixels) = match look {
+            Look::Rough => (&self.rough, &view.few_pixels),
+            Look::Full => (&self.check, &view.pixels),
+        };
         let observed = match self.masks {
-            Masks::Visible => Observed::Pixels(&view.pixels),
+            Masks::Visible => Observed::Pixels(pixels),
             Masks::Silhouette => Observed::Silhouette,
         };
-        let report = self
-            .check
-            .run(&pose, observed, &view.depth, room, &mut || {})?;
+        let report = check.run(&pose, observed, &view.depth, room, &mut || {})?;
         Ok(Some(report))
     }
 }

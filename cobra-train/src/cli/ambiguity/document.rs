@@ -136,16 +136,16 @@ impl Found<'_> {
                     axis: axis.direction.into_inner().into(),
                     offset_mm: lengths(axis.offset.coords),
                     any: range == Range::Any,
-                    low_degrees: ends(range).map(|[low, _]| low.to_degrees()),
-                    high_degrees: ends(range).map(|[_, high]| high.to_degrees()),
+                    low_degrees: range.ends().map(|[low, _]| low.to_degrees()),
+                    high_degrees: range.ends().map(|[_, high]| high.to_degrees()),
                 },
                 What::Path {
                     path: Path::Slide(direction),
                     range,
                 } => WhatDocument::Slides {
                     direction: direction.into_inner().into(),
-                    low_mm: ends(range).map(|[low, _]| mm * low),
-                    high_mm: ends(range).map(|[_, high]| mm * high),
+                    low_mm: range.ends().map(|[low, _]| mm * low),
+                    high_mm: range.ends().map(|[_, high]| mm * high),
                 },
                 What::Motion { motion, screw } => {
                     let matrix = motion.rotation.to_rotation_matrix();
@@ -211,7 +211,7 @@ impl Found<'_> {
     fn row(&self, found: &Ambiguity) -> Vec<String> {
         let mm = self.millimetres;
         let mut row = vec![
-            self.motion(&found.what),
+            found.what.words(mm),
             format!("{} of {}", found.views, self.ambiguities.views),
             format!("{:.3}", found.confidence),
             format!("{:.1}", mm * found.add),
@@ -225,44 +225,6 @@ impl Found<'_> {
                 .map(|stated| if stated { "yes" } else { "no" }.to_owned()),
         );
         row
-    }
-
-    /// A motion in words.
-    fn motion(&self, what: &What) -> String {
-        let direction = |d: &Vector3<f64>| format!("({:.2}, {:.2}, {:.2})", d.x, d.y, d.z);
-        match what {
-            What::Path {
-                path: Path::Turn(axis),
-                range,
-            } => {
-                let about = direction(&axis.direction);
-                match ends(*range) {
-                    None => format!("turns about {about} by any angle"),
-                    Some([low, high]) => format!(
-                        "turns about {about} by {:.0} to {:.0} degrees",
-                        low.to_degrees(),
-                        high.to_degrees()
-                    ),
-                }
-            }
-            What::Path {
-                path: Path::Slide(along),
-                range,
-            } => {
-                let [low, high] = ends(*range).unwrap_or_default();
-                format!(
-                    "slides along {} by {:.1} to {:.1} mm",
-                    direction(along),
-                    self.millimetres * low,
-                    self.millimetres * high
-                )
-            }
-            What::Motion { screw, .. } => format!(
-                "turn by {:.0} degrees about {}",
-                screw.angle.to_degrees(),
-                direction(&screw.axis.direction)
-            ),
-        }
     }
 
     /// What follows for whoever trusts the score.
@@ -307,11 +269,11 @@ impl Found<'_> {
                 all.found.len()
             ));
         }
+        let stated = all.stated_found.len();
         let told_apart = all.stated_found.iter().filter(|found| !**found).count();
         if told_apart > 0 {
             sentences.push(format!(
-                "{told_apart} of {} in models_info not found: the check tells it apart.",
-                plural(all.stated_found.len(), "symmetry").replace("symmetrys", "symmetries")
+                "{told_apart} of {stated} that models_info states not found: the check tells it apart."
             ));
         }
         sentences.join(" ")
@@ -321,11 +283,4 @@ impl Found<'_> {
 /// That of the largest ADD.
 fn worst<'a>(found: impl Iterator<Item = &'a Ambiguity>) -> Option<&'a Ambiguity> {
     found.max_by(|a, b| a.add.total_cmp(&b.add))
-}
-
-fn ends(range: Range) -> Option<[f64; 2]> {
-    match range {
-        Range::Any => None,
-        Range::Between { low, high } => Some([low, high]),
-    }
 }
