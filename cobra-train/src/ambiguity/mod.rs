@@ -45,7 +45,7 @@ use settle::settle;
 use slide::{Family, families};
 use views::{Judge, Look, Room};
 
-/// Candidates a view unless the caller says otherwise: 24° apart, which refinement bridges.
+/// Candidates a view unless the caller says otherwise: 23° apart, which refinement bridges.
 pub const CANDIDATES: usize = 1_152;
 
 /// Which pixels show the object.
@@ -78,7 +78,7 @@ pub struct SearchOptions {
 }
 
 impl SearchOptions {
-    /// Twelve views, rotations 24° apart, all pixels that show the object, depth without noise, nine
+    /// Twelve views, rotations 23° apart, all pixels that show the object, depth without noise, nine
     /// tenths of the true pose's confidence.
     #[must_use]
     pub fn new(settings: DepthSettings) -> Self {

@@ -36,7 +36,7 @@ pub(crate) struct AmbiguityArguments {
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=1_000))]
     pub(crate) views: u32,
 
-    /// Rotations that are tried in each view; 1152 are 24 degrees apart
+    /// Rotations that are tried in each view; 1152 are 23 degrees apart
     #[arg(long, value_name = "N", default_value_t = CANDIDATES as u32, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) candidates: u32,
 

@@ -254,7 +254,7 @@ impl Found<'_> {
                     .to_owned(),
                 Some(worst) => format!(
                     "{} of {} not stated in models_info: such poses count as wrong, by up to {:.1} mm of \
-                     ADD, and are accepted.",
+                     ADD, and score as right ones do.",
                     unstated().count(),
                     all.found.len(),
                     mm * worst.add
@@ -265,7 +265,7 @@ impl Found<'_> {
         let some = some.count();
         if some > 0 {
             sentences.push(format!(
-                "{some} of {} only in some views: where what decides is hidden, another view helps.",
+                "{some} of {} only in some views: in the others shape decides.",
                 all.found.len()
             ));
         }
