@@ -3,6 +3,8 @@
 //! Owns what a pixel says. Reading them is `bop`'s business, scoring against them the scorer's.
 
 use crate::input::ImageSize;
+use crate::pixel_mask::PixelMask;
+use cobra_infer::depth::DepthPixel;
 
 /// Depths along the camera's axis (z, not the distance from the camera's centre), in millimetres,
 /// one a pixel.
@@ -40,6 +42,23 @@ impl DepthImage {
     pub fn at(&self, column: u32, row: u32) -> Option<f32> {
         let depth = *self.millimetres.get(self.size.index(column, row)?)?;
         (depth > 0.0).then_some(depth)
+    }
+
+    /// At most `most` of a mask's pixels that have a depth, spread evenly, as the depth check takes them.
+    #[must_use]
+    pub fn pixels_in(&self, mask: &PixelMask, most: usize) -> Vec<DepthPixel> {
+        let all: Vec<DepthPixel> = mask
+            .pixels()
+            .filter_map(|(column, row)| {
+                Some(DepthPixel {
+                    column: u16::try_from(column).ok()?,
+                    row: u16::try_from(row).ok()?,
+                    depth: self.at(column, row)?,
+                })
+            })
+            .collect();
+        let count = all.len().min(most);
+        (0..count).map(|i| all[i * all.len() / count]).collect()
     }
 
     /// All depths in millimetres, row by row from the top left, as they were given.
@@ -80,6 +99,13 @@ mod tests {
         assert_eq!(image.at(2, 0), Some(f32::INFINITY));
         assert_eq!([image.at(0, 1), image.at(1, 1)], [None, None]);
         assert_eq!(image.at(2, 1), Some(3.0));
+        let mask = PixelMask::new(size, vec![true, true, true, false, true, true]);
+        let pixels = |most| -> Vec<(u16, u16)> {
+            let taken = image.pixels_in(&mask, most);
+            taken.iter().map(|p| (p.column, p.row)).collect()
+        };
+        assert_eq!(pixels(9), [(1, 0), (2, 0), (2, 1)]);
+        assert_eq!(pixels(2), [(1, 0), (2, 0)]);
         // Beside the image, not the next row's pixel.
         assert_eq!([image.at(3, 0), image.at(0, 2)], [None, None]);
     }

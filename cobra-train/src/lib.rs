@@ -26,6 +26,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod ambiguity;
 pub mod bop;
 pub mod calibrate;
 pub mod coverage;

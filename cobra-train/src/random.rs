@@ -37,6 +37,8 @@ pub enum Purpose {
     OffSurface,
     /// Noise on simulated depth images.
     DepthNoise,
+    /// How the views and the candidates of a search for ambiguities are turned.
+    Ambiguity,
     /// Scenes of one object, and wrong poses in them.
     SimulatedScenes,
 }

@@ -1,5 +1,6 @@
 //! The arguments of `cobra`, with the help that goes with them.
 
+use super::ambiguity::AmbiguityArguments;
 use super::bop::BopArguments;
 use super::calibrate::CalibrateArguments;
 use super::choices::{
@@ -55,6 +56,8 @@ pub(crate) enum Command {
     Eval(EvalArguments),
     /// Work with data sets and results files of the BOP benchmark
     Bop(BopArguments),
+    /// Find wrong poses that score as well as the true one: symmetries, and what is nearly one
+    Ambiguity(AmbiguityArguments),
     /// Find the thresholds for a false-accept rate on labelled estimates, and store them in a template
     Calibrate(CalibrateArguments),
     /// Show what is in a template, its size and its cost

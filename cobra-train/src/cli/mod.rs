@@ -3,6 +3,7 @@
 //! Owns what is particular to a terminal: arguments, progress, tables, exit codes. Everything that
 //! another program could want is in the library.
 
+mod ambiguity;
 mod args;
 mod bop;
 mod calibrate;
@@ -39,6 +40,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Score(arguments) => score::run(arguments, &terminal),
         Command::Eval(arguments) => eval::run(arguments, &terminal),
         Command::Bop(arguments) => bop::run(arguments, &terminal),
+        Command::Ambiguity(arguments) => ambiguity::run(arguments, &terminal),
         Command::Calibrate(arguments) => calibrate::run(arguments, &terminal),
         Command::Inspect(arguments) => inspect::run(arguments, &terminal),
         Command::Export(arguments) => export::run(arguments, &terminal),

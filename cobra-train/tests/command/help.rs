@@ -2,11 +2,12 @@
 
 use crate::run::{run, succeed};
 
-const COMMANDS: [&str; 7] = [
+const COMMANDS: [&str; 8] = [
     "demo",
     "train",
     "score",
     "eval",
+    "ambiguity",
     "calibrate",
     "inspect",
     "export",

@@ -1,5 +1,6 @@
 //! The command `cobra`, run as its users run it.
 
+mod ambiguity;
 mod auto;
 mod bop;
 mod calibrate;

@@ -13,7 +13,7 @@ mod tests;
 
 pub use error::DatasetError;
 pub use image::mask_in;
-pub use models::{ModelInfo, Models};
+pub use models::{ModelInfo, Models, read_model_info};
 pub use scene::{Annotation, Scene};
 
 use crate::input::{CameraFile, ImageSize, read_camera};

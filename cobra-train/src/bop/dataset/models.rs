@@ -100,15 +100,27 @@ impl Models {
             let missing = std::io::ErrorKind::NotFound.into();
             return Err(DatasetError::io(&self.folder.join(INFO), missing));
         };
-        let entry = info.entry("object", object)?;
-        Ok(ModelInfo {
-            diameter: diameter(&entry)?,
-            symmetries: Symmetries {
-                discrete: list(&entry, "symmetries_discrete", discrete)?,
-                continuous: list(&entry, "symmetries_continuous", continuous)?,
-            },
-        })
+        info_of(info, object)
     }
+}
+
+/// Diameter and symmetries of an object in a `models_info.json` of any name.
+///
+/// # Errors
+/// [`DatasetError`] names the file, the object and the key.
+pub fn read_model_info(path: &Path, object: u32) -> Result<ModelInfo, DatasetError> {
+    info_of(&Document::read(path.to_owned())?, object)
+}
+
+fn info_of(info: &Document, object: u32) -> Result<ModelInfo, DatasetError> {
+    let entry = info.entry("object", object)?;
+    Ok(ModelInfo {
+        diameter: diameter(&entry)?,
+        symmetries: Symmetries {
+            discrete: list(&entry, "symmetries_discrete", discrete)?,
+            continuous: list(&entry, "symmetries_continuous", continuous)?,
+        },
+    })
 }
 
 fn diameter(entry: &Entry<'_>) -> Result<f64, DatasetError> {

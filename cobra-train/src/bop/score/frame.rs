@@ -203,20 +203,7 @@ impl Frame {
         let Some((_, mask)) = nearest else {
             return Ok(None);
         };
-        let all: Vec<DepthPixel> = mask
-            .pixels()
-            .filter_map(|(column, row)| {
-                Some(DepthPixel {
-                    column: u16::try_from(column).ok()?,
-                    row: u16::try_from(row).ok()?,
-                    depth: self.depth().at(column, row)?,
-                })
-            })
-            .collect();
-        let count = all.len().min(most);
-        Ok(Some(
-            (0..count).map(|i| all[i * all.len() / count]).collect(),
-        ))
+        Ok(Some(self.depth().pixels_in(&mask, most)))
     }
 
     fn mask(&self, annotation: usize) -> Result<Option<PixelMask>, DatasetError> {
