@@ -3,7 +3,7 @@
 //! Owns the measure, ADD over some of the mesh's vertices, and the mean of motions. A motion M moves the
 //! object in its own frame: at the true pose T it leads to the pose TM.
 
-use crate::bop::score::Truth;
+use crate::bop::score::Errors;
 use crate::bop::symmetry::Axis;
 use crate::pose::{add, nearest_pose};
 use crate::surface::Mesh;
@@ -40,7 +40,7 @@ impl Gauge {
 
     /// What separates a right pose from a wrong one.
     pub(super) fn limit(&self) -> f64 {
-        Truth::RIGHT * self.diameter
+        Errors::RIGHT * self.diameter
     }
 
     /// Whether the one is right where the other is the truth.
