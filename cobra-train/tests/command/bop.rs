@@ -141,8 +141,8 @@ fn scores_replace_the_files_own_and_nothing_else_changes() {
         let [right, behind, nearly, beside] = scores[..] else {
             panic!("{after}");
         };
-        assert!(right > 0.9 && nearly > 0.9, "{scores:?}");
-        assert!(behind < 0.2 && beside < 1e-3, "{scores:?}");
+        assert!(right > 0.7 && nearly > 0.7, "{scores:?}");
+        assert!(behind < 0.05 && beside < 1e-3, "{scores:?}");
     }
 }
 
@@ -170,9 +170,10 @@ fn the_report_says_every_number_and_the_truth() {
     assert!(behind["along_ray_mm"].as_f64().unwrap() < -25.0, "{behind}");
     assert_eq!(behind["refined_t_mm"].as_array().unwrap().len(), 3);
     assert!(beside["cause"].as_str().unwrap().contains("sees past it"));
-    assert_eq!(beside["decision"], "undecided");
+    assert_eq!(beside["decision"], "reject");
+    assert_eq!(right["decision"], "undecided");
     assert!(
-        beside["reason"]
+        right["reason"]
             .as_str()
             .unwrap()
             .contains("calibrate first")
@@ -187,7 +188,7 @@ fn a_calibrated_template_decides() {
             row(
                 3 + i % 3,
                 1,
-                &format!("5 -10 {}", 600.0 + 0.15 * f64::from(i)),
+                &format!("5 -10 {}", 600.0 + 0.12 * f64::from(i)),
             )
         })
         .collect();
