@@ -37,6 +37,7 @@ pub mod export;
 pub mod gp;
 pub mod input;
 pub mod output;
+pub mod overlay;
 pub mod pixel_mask;
 pub mod pose;
 pub mod progress;

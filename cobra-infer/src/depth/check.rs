@@ -8,7 +8,7 @@ use super::refine::Equations;
 use super::report::DepthReport;
 use super::reverse::{Evidence, Sight, look_up};
 use super::settings::DepthSettings;
-use super::surface::{Surface, TemplateSurface};
+use super::surface::{Nearby, Surface, TemplateSurface};
 use super::zbuffer::{Cell, Window, ZBuffer};
 use crate::camera::Camera;
 use crate::math::Real;
@@ -72,22 +72,21 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         cells: &mut [Cell],
         alive: &mut impl FnMut(),
     ) -> Result<DepthReport, DepthError> {
-        let (expected, found) = (self.settings.cells(), cells.len());
-        let cells = cells
-            .get_mut(..expected)
-            .ok_or(DepthError::Cells { expected, found })?;
-        let noise = self.surface.noise();
+        let noise = self.noise();
         let mut report = DepthReport::behind_camera(pose, noise);
-        let Some(window) = self.window(pose) else {
+        let Some(buffer) = self.depth_buffer(pose, cells, alive)? else {
             report.depth_ratio = self.depth_ratio(pose, observed);
             return Ok(report);
         };
-        let buffer = self.visible(pose, window, cells, alive);
         let mut evidence = Evidence::default();
         for visible in buffer.visible() {
-            evidence.add(&visible, look_up(image, &visible, noise), noise);
+            let sight = look_up(image, &visible, noise);
+            evidence.add(&visible, sight, noise, self.surface.diameter());
         }
         report.take(&evidence);
+        if matches!(observed, Observed::Pixels(_)) {
+            report.depth_ratio = self.depth_ratio(pose, observed);
+        }
         let pixels = Pixels {
             observed,
             buffer: &buffer,
@@ -99,7 +98,27 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         Ok(report)
     }
 
-    /// What the observed pixels say of the depth of an object that nothing can be said of otherwise.
+    /// σ_m.
+    pub(super) fn noise(&self) -> f32 {
+        self.surface.noise()
+    }
+
+    /// The points that a camera sees at the pose; `None` where the object does not lie in front of it.
+    pub(super) fn depth_buffer<'m>(
+        &self,
+        pose: &Pose,
+        cells: &'m mut [Cell],
+        alive: &mut impl FnMut(),
+    ) -> Result<Option<ZBuffer<'m>>, DepthError> {
+        let (expected, found) = (self.settings.cells(), cells.len());
+        let cells = cells
+            .get_mut(..expected)
+            .ok_or(DepthError::Cells { expected, found })?;
+        let window = self.window(pose);
+        Ok(window.map(|window| self.visible(pose, window, cells, alive)))
+    }
+
+    /// What the observed pixels say of the object's depth.
     fn depth_ratio(&self, pose: &Pose, observed: Observed<'_>) -> f32 {
         let Observed::Pixels(pixels) = observed else {
             return 0.0;
@@ -191,14 +210,22 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         let mut count = 0_u32;
         pixels.each(every, &mut |pixel| {
             feed(&mut count, alive);
-            let point = self
-                .camera
-                .back_project_depth(pose, &pixel.pixel(), pixel.depth);
-            // What is infinitely far away lies on no surface.
-            let nearby = point.and_then(|point| Some((point, self.surface.nearby(&point)?)));
-            equations.add(nearby);
+            equations.add(self.look_back(pose, pixel));
         });
         equations
+    }
+
+    /// A pixel put back into the object's frame, and what the surface says of it; `None` where that is nothing.
+    pub(super) fn look_back(
+        &self,
+        pose: &Pose,
+        pixel: &DepthPixel,
+    ) -> Option<(Point3<f32>, Nearby)> {
+        // What is infinitely far away lies on no surface.
+        let point = self
+            .camera
+            .back_project_depth(pose, &pixel.pixel(), pixel.depth)?;
+        Some((point, self.surface.nearby(&point)?))
     }
 
     /// ADD between two poses, over points of the surface.

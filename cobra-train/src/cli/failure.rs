@@ -1,6 +1,8 @@
 //! What ends the command early, and the exit code that says so.
 
 use cobra_infer::{ScoreError, TemplateError};
+use cobra_train::bop::dataset::DatasetError;
+use cobra_train::bop::results::ReadResultsError;
 use cobra_train::input::{
     ReadCameraError, ReadCorrespondencesError, ReadEstimatesError, ReadReportError,
 };
@@ -103,6 +105,18 @@ impl From<ReadReportError> for Failure {
     fn from(error: ReadReportError) -> Self {
         let io = matches!(&error, ReadReportError::Io { source, .. } if !is_content(source));
         classify(io, &error)
+    }
+}
+
+impl From<&DatasetError> for Failure {
+    fn from(error: &DatasetError) -> Self {
+        classify(error.is_io(), error)
+    }
+}
+
+impl From<ReadResultsError> for Failure {
+    fn from(error: ReadResultsError) -> Self {
+        classify(error.is_io(), &error)
     }
 }
 

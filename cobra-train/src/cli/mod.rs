@@ -16,6 +16,7 @@ mod inspect;
 mod learning;
 mod object;
 mod outputs;
+mod overlay;
 mod report;
 mod score;
 mod template_file;
@@ -38,6 +39,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Score(arguments) => score::run(arguments, &terminal),
         Command::Eval(arguments) => eval::run(arguments, &terminal),
         Command::Calibrate(arguments) => calibrate::run(arguments, &terminal),
+        Command::Overlay(arguments) => overlay::run(arguments, &terminal),
         Command::Inspect(arguments) => inspect::run(arguments, &terminal),
         Command::Export(arguments) => export::run(arguments, &terminal),
         Command::Completions { shell } => {

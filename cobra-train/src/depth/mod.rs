@@ -1,8 +1,12 @@
 //! The depth check on the host.
 //!
 //! Owns what a host adds to [`cobra_infer::depth`], whose scoring it calls: the exact mesh as a surface, to
-//! measure what a template loses.
+//! measure what a template loses, and the residuals of a pose one by one, to look at.
 
 mod mesh;
+mod pixels;
+mod residual;
 
 pub use mesh::MeshSurface;
+pub use pixels::{observed, spread};
+pub use residual::ResidualMap;

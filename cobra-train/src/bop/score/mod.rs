@@ -7,6 +7,7 @@ mod frame;
 mod problem;
 mod truth;
 
+pub use frame::{Frame, Frames};
 pub use problem::Problem;
 pub use truth::Truth;
 
@@ -17,7 +18,6 @@ use crate::progress::Progress;
 use cobra_infer::depth::{
     Cause, Cell, Correction, DepthCheck, DepthReport, DepthSettings, Observed, Surface,
 };
-use frame::{Frame, Frames};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
