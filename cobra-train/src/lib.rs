@@ -8,7 +8,7 @@
 //! code, [`calibrate`] finds the thresholds for a false-accept rate, [`export`] makes source text of it. [`input`] reads cameras, poses and correspondences,
 //! code, [`export`] makes source text of it. [`input`] reads cameras, poses and correspondences,
 //! the whole. The command `cobra` is a thin layer over this
-//! library.
+//! library. [`overlay`] draws estimates over the image that they are of.
 //!
 //! # Example
 //! ```no_run

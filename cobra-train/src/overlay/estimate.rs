@@ -88,14 +88,12 @@ impl OverlayEstimate {
         })
     }
 
-    /// Everything of it that lies in the image or beside it: the box, the surface, else the pixels.
+    /// Everything of it in the image or beside it: the box, the surface, the observed pixels.
     pub(super) fn outline(&self) -> Vec<Point2<f32>> {
         let mut points: Vec<_> = self.edges.iter().flatten().copied().collect();
         points.extend(self.residuals.surface.iter().map(|point| point.pixel));
-        if points.is_empty() {
-            let observed = self.residuals.pixels.iter();
-            points.extend(observed.map(|(pixel, _)| pixel.pixel()));
-        }
+        let observed = self.residuals.pixels.iter();
+        points.extend(observed.map(|(pixel, _)| pixel.pixel()));
         points
     }
 }

@@ -72,8 +72,11 @@ impl OverlayEstimate {
                 ),
             ),
             (
-                "refinement moves it",
-                format!("{} on average", length(report.displacement, self.unit)),
+                "refinement",
+                format!(
+                    "moves it by {} on average",
+                    length(report.displacement, self.unit)
+                ),
             ),
             (
                 "likelihoods",
@@ -93,11 +96,14 @@ impl OverlayEstimate {
             (
                 "visible surface",
                 format!(
-                    "{:.0} % judged, {:.0} % hidden, {:.0} % not measured",
+                    "{:.0} % judged, {:.0} % hidden",
                     percent(report.judged, looked_at),
-                    percent(report.hidden, looked_at),
-                    percent(report.unmeasured, looked_at)
+                    percent(report.hidden, looked_at)
                 ),
+            ),
+            (
+                "not measured",
+                format!("{:.0} % of it", percent(report.unmeasured, looked_at)),
             ),
             (
                 "seen through",
@@ -117,7 +123,7 @@ pub(super) fn draw(
     width: i32,
     estimate: &OverlayEstimate,
 ) -> Drawn {
-    let value = left + px(152);
+    let value = left + px(140);
     let name = |at: i32, name: &'static str| {
         Text::new(name, (left, at), text(15, QUIET, HPos::Left, VPos::Center))
     };

@@ -92,7 +92,49 @@ impl Layer {
             };
             layer.disc(view.place(point.pixel), radius, point.depth, patch);
         }
+        layer.close(4.0 * radius);
         layer
+    }
+
+    /// Fills holes of no more than `side`² pixels with what lies to the left of them: cells that no point of the
+    /// surface fell into, rather than holes of the object.
+    fn close(&mut self, side: f32) {
+        let (width, _) = self.view.size();
+        let most = (side * side) as usize;
+        let mut seen = vec![false; self.patches.len()];
+        for start in 0..self.patches.len() {
+            if seen[start] || self.patches[start].is_some() {
+                continue;
+            }
+            let mut hole = vec![start];
+            seen[start] = true;
+            let (mut next, mut open) = (0, false);
+            while let Some(&at) = hole.get(next) {
+                next += 1;
+                let (column, row) = (at % width as usize, at / width as usize);
+                let [x, y] = [column, row].map(|t| i32::try_from(t).unwrap_or(i32::MAX));
+                for (dx, dy) in [(-1, 0), (1, 0), (0, -1), (0, 1)] {
+                    match self.index(x + dx, y + dy) {
+                        Some(beside) if self.patches[beside].is_none() => {
+                            if !seen[beside] {
+                                seen[beside] = true;
+                                hole.push(beside);
+                            }
+                        }
+                        Some(_) => {}
+                        None => open = true,
+                    }
+                }
+            }
+            if open || hole.len() > most {
+                continue;
+            }
+            hole.sort_unstable();
+            for at in hole {
+                // A hole does not reach the rim: something lies to the left.
+                self.patches[at] = self.patches[at.saturating_sub(1)];
+            }
+        }
     }
 
     /// The observed pixels, as the squares that they are.

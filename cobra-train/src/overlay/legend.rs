@@ -24,8 +24,8 @@ const PATTERNS: [(Patch, &str); 4] = [
 ];
 
 /// Where the first swatch is, from the legend's left end, and how far the next is from there.
-const FIRST: i32 = px(540);
-const NEXT: (i32, i32) = (px(290), px(32));
+const FIRST: i32 = px(516);
+const NEXT: (i32, i32) = (px(276), px(32));
 
 /// The part that is painted: the bar and the swatches, on the page's image.
 pub(super) fn paint(image: &mut RgbImage, (left, top): (i32, i32)) {

@@ -63,6 +63,7 @@ pub(super) fn draw(
 /// The box of each estimate in the image, in the colour of its decision, with its number.
 fn labels(page: &Page<'_>, view: &View, estimates: &[OverlayEstimate]) -> Drawn {
     let (width, height) = view.size();
+    let mut plates: Vec<[(i32, i32); 2]> = Vec::new();
     let rim = Point2::new(width as f32 - 2.0, height as f32 - 2.0);
     for (index, estimate) in estimates.iter().enumerate() {
         let points = estimate.residuals.surface.iter();
@@ -91,14 +92,26 @@ fn labels(page: &Page<'_>, view: &View, estimates: &[OverlayEstimate]) -> Drawn 
             low.1
         };
         let left = low.0.min(width.cast_signed() - wide.cast_signed() - px(14));
-        let plate = [
+        let mut plate = [
             (left - px(1), top),
             (left + wide.cast_signed() + px(12), top + px(22)),
         ];
+        // Below those that are there already.
+        while let Some(other) = plates.iter().find(|other| overlap(other, &plate)) {
+            let down = other[1].1 + px(1) - plate[0].1;
+            plate = plate.map(|(x, y)| (x, y + down));
+        }
+        plates.push(plate);
+        let top = plate[0].1;
         page.draw(&Rectangle::new(plate, colour.filled()))?;
         page.draw(&Text::new(label, (left + px(6), top + px(11)), style))?;
     }
     Ok(())
+}
+
+/// Whether two rectangles share a pixel.
+fn overlap([a, b]: &[(i32, i32); 2], [c, d]: &[(i32, i32); 2]) -> bool {
+    a.0 <= d.0 && c.0 <= b.0 && a.1 <= d.1 && c.1 <= b.1
 }
 
 /// An entry for each estimate, as many as there is room for.

@@ -13,6 +13,7 @@ mod inspect;
 mod learning;
 mod map;
 mod output;
+mod overlay;
 mod placement;
 mod run;
 mod scene;
