@@ -187,6 +187,7 @@ fn name(cause: &Cause) -> &'static str {
         Cause::Turned { .. } => "turned",
         Cause::Elsewhere => "elsewhere",
         Cause::Hidden => "hidden",
+        Cause::Unmeasured => "unmeasured",
     }
 }
 
@@ -215,10 +216,10 @@ const KINDS: [Kind; 16] = [
     kind("right", &["fits", "hidden"], 8, 8),
     kind("half hidden", &["fits", "hidden", "in front"], 8, 8),
     kind("covered", &["in front", "hidden"], 8, 8),
-    kind("40 mm too far", &["along"], 7, 7),
-    kind("40 mm too near", &["along"], 6, 5),
+    kind("40 mm too far", &["along"], 7, 6),
+    kind("40 mm too near", &["along"], 6, 6),
     kind("30 mm sideways", &["sideways"], 7, 0),
-    kind("60 degrees about the ray", &["turned"], 6, 0),
+    kind("60 degrees about the ray", &["turned"], 7, 2),
     kind("60 degrees across it", &["turned"], 4, 0),
     kind("behind the camera", &["behind"], 8, 8),
     kind("pose in metres", &["scale"], 8, 0),
@@ -226,11 +227,16 @@ const KINDS: [Kind; 16] = [
     kind("pose in centimetres", &["scale"], 8, 0),
     kind("depth in metres", &["scale"], 8, 8),
     kind("three diameters too near", &["seen through"], 8, 8),
-    kind("in free space beside", &["seen through"], 8, 8),
+    kind(
+        "in free space beside",
+        &["seen through", "unmeasured", "sideways"],
+        7,
+        7,
+    ),
     kind(
         "at another object's place",
         &["sideways", "seen through", "elsewhere"],
-        6,
+        7,
         4,
     ),
 ];

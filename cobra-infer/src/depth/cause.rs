@@ -96,6 +96,8 @@ pub enum Cause {
     Elsewhere,
     /// Little of it can be seen behind something else.
     Hidden,
+    /// Nothing was measured where it must be seen, or that lies outside of the image.
+    Unmeasured,
 }
 
 /// Ratios of the units that lengths come in.
@@ -147,7 +149,10 @@ impl DepthReport {
         }
         let looked_at = self.hidden.saturating_add(self.judged) as f32;
         let hidden = self.hidden as f32;
-        if looked_at > 0.0 && hidden >= 0.9 * looked_at {
+        if looked_at == 0.0 {
+            return Cause::Unmeasured;
+        }
+        if hidden >= 0.9 * looked_at {
             return Cause::InFront;
         }
         if fits {
@@ -252,6 +257,9 @@ impl Cause {
                 f.write_str("the shape does not fit, and no small motion makes it fit")
             }
             Cause::Hidden => f.write_str("most of it is hidden behind something else"),
+            Cause::Unmeasured => f.write_str(
+                "nothing was measured where it must be seen, or that lies outside of the image",
+            ),
         }
     }
 }

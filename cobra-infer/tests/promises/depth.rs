@@ -233,6 +233,7 @@ fn without_evidence_there_is_no_decision() {
     };
     let report = run(&pose(0.0), &blind, false, &settings());
     assert_eq!(report.unmeasured, report.visible);
+    assert_eq!(cause(&pose(0.0), &report), Cause::Unmeasured);
     assert_eq!(report.decision, Decision::Undecided(Doubt::TooFewPoints));
     let outside = Pose::from_row_major(IDENTITY, [3000.0, 0.0, 500.0]).unwrap();
     let report = run(&outside, &Scene::at(0.0, 500.0), false, &settings());
