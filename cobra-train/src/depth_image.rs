@@ -2,6 +2,7 @@
 //!
 //! Owns what a pixel says. Reading them is `bop`'s business, scoring against them the scorer's.
 
+use crate::depth::{observed, spread};
 use crate::input::ImageSize;
 use crate::pixel_mask::PixelMask;
 use cobra_infer::depth::DepthPixel;
@@ -47,18 +48,7 @@ impl DepthImage {
     /// At most `most` of a mask's pixels that have a depth, spread evenly, as the depth check takes them.
     #[must_use]
     pub fn pixels_in(&self, mask: &PixelMask, most: usize) -> Vec<DepthPixel> {
-        let all: Vec<DepthPixel> = mask
-            .pixels()
-            .filter_map(|(column, row)| {
-                Some(DepthPixel {
-                    column: u16::try_from(column).ok()?,
-                    row: u16::try_from(row).ok()?,
-                    depth: self.at(column, row)?,
-                })
-            })
-            .collect();
-        let count = all.len().min(most);
-        (0..count).map(|i| all[i * all.len() / count]).collect()
+        spread(&observed(mask, self), most)
     }
 
     /// All depths in millimetres, row by row from the top left, as they were given.

@@ -3,11 +3,11 @@
 //! From a mesh to a template: [`surface`] reads it and draws points on it, [`mod@reference`] places
 //! reference points, [`gp`] fits a Gaussian process around each, [`mod@train`] puts them together and
 //! hands them to `cobra-infer`'s encoder. [`mod@evaluate`] measures the result with the scorer's own
-//! [`pose`] simulates them, [`bop`] reads data sets and results of the BOP benchmark, [`demo`] shows
-//! [`pose`] simulates them, [`demo`] shows the whole. The command `cobra` is a thin layer over this
-//! code, [`calibrate`] finds the thresholds for a false-accept rate, [`export`] makes source text of it. [`input`] reads cameras, poses and correspondences,
-//! code, [`export`] makes source text of it. [`input`] reads cameras, poses and correspondences,
-//! the whole. The command `cobra` is a thin layer over this
+//! code, [`calibrate`] finds the thresholds for a false-accept rate, on labelled estimates or on those of
+//! [`simulation`], and [`ambiguity`] the poses that no threshold tells apart. [`export`] makes source text
+//! of a template. [`input`] reads cameras, poses and correspondences, [`pose`] simulates them, [`bop`] reads
+//! data sets and results of the BOP benchmark and scores them against depth, [`overlay`] draws estimates
+//! over the image that they are of, [`demo`] shows the whole. The command `cobra` is a thin layer over this
 //! library.
 //!
 //! # Example
@@ -38,6 +38,7 @@ pub mod export;
 pub mod gp;
 pub mod input;
 pub mod output;
+pub mod overlay;
 pub mod pixel_mask;
 pub mod pose;
 pub mod progress;

@@ -6,6 +6,7 @@
 use super::report::DepthReport;
 use crate::math::{self, Real};
 use crate::pose::Pose;
+use crate::unit::Unit;
 use core::fmt;
 use nalgebra::Point3;
 
@@ -73,7 +74,8 @@ pub enum Cause {
     },
     /// Another object stands in front of nearly all of it.
     InFront,
-    /// The camera sees past most of what would have to hide the background.
+    /// The camera sees past most of what would have to hide the background: nothing is there, or something of
+    /// another shape.
     SeenThrough,
     /// It would have to move along the camera's ray.
     AlongRay {
@@ -94,6 +96,8 @@ pub enum Cause {
     Elsewhere,
     /// Little of it can be seen behind something else.
     Hidden,
+    /// Nothing was measured where it must be seen, or that lies outside of the image.
+    Unmeasured,
 }
 
 /// Ratios of the units that lengths come in.
@@ -105,8 +109,24 @@ const NEAR_UNIT: f32 = 1.35;
 /// An error of less than this many σ needs no reason.
 const SMALL: f32 = 1.0;
 
+/// A motion of less than this many σ is no reason.
+const LEAST_MOTION: f32 = 0.8;
+
+/// A residual after refinement of less than this many σ: the motion explains what was seen.
+const EXPLAINED: f32 = 0.7;
+
+/// Of more than this many: it does not.
+const UNEXPLAINED: f32 = 1.6;
+
+/// With fewer pixels refinement explains nothing.
+const FEWEST: u32 = 10;
+
 impl DepthReport {
     /// Why the pose fits as it does; `correction` is that from the pose to [`DepthReport::refined`].
+    ///
+    /// What is certain is looked for first: a ratio of units; a surface that as a whole lies nearer or farther;
+    /// a motion after which the pixels fit; then what hides the object or is missing; then the motion that
+    /// explains most. Which reason is given to which error: `docs/OVERLAY.md`.
     #[must_use]
     pub fn cause(&self, correction: &Correction) -> Cause {
         if let Some(factor) = unit_ratio(self.depth_ratio) {
@@ -115,30 +135,57 @@ impl DepthReport {
         if self.visible == 0 {
             return Cause::BehindCamera;
         }
+        let sigma = self.noise;
+        let fits = self.estimated_error < SMALL * sigma;
+        if !fits && math::abs(self.common_offset) >= LEAST_MOTION * sigma {
+            return Cause::AlongRay {
+                distance: self.common_offset,
+            };
+        }
+        let moves = self.displacement >= LEAST_MOTION * sigma
+            && self.displacement >= 0.5 * self.estimated_error;
+        if !fits && moves && self.pixels >= FEWEST && self.residual < EXPLAINED * sigma {
+            return self.motion(correction);
+        }
         let looked_at = self.hidden.saturating_add(self.judged) as f32;
         let hidden = self.hidden as f32;
-        if looked_at > 0.0 && hidden >= 0.9 * looked_at {
+        if looked_at == 0.0 {
+            return Cause::Unmeasured;
+        }
+        if hidden >= 0.9 * looked_at {
             return Cause::InFront;
         }
-        if self.estimated_error < SMALL * self.noise {
+        if fits {
             return if hidden > 0.5 * looked_at {
                 Cause::Hidden
             } else {
                 Cause::Fits
             };
         }
-        if self.seen_through as f32 > 0.5 * self.judged as f32 {
-            return Cause::SeenThrough;
+        let through = self.seen_through as f32;
+        let judged = self.judged as f32;
+        if through > 0.85 * judged {
+            Cause::SeenThrough
+        } else if moves && self.residual < UNEXPLAINED * sigma {
+            self.motion(correction)
+        } else if through > 0.5 * judged {
+            Cause::SeenThrough
+        } else {
+            Cause::Elsewhere
         }
-        if self.displacement < 0.5 * self.estimated_error {
-            return Cause::Elsewhere;
-        }
-        let along = math::abs(correction.along_ray);
-        if along > 0.7 * self.displacement {
+    }
+
+    /// The largest part of the motion: along the ray, across it, or what of the displacement the middle does not
+    /// share, because the object turns about it.
+    fn motion(&self, correction: &Correction) -> Cause {
+        let along = correction.along_ray * correction.along_ray;
+        let sideways = correction.sideways * correction.sideways;
+        let turned = self.displacement * self.displacement - along - sideways;
+        if along >= sideways && along >= turned {
             Cause::AlongRay {
                 distance: correction.along_ray,
             }
-        } else if correction.sideways > 0.7 * self.displacement {
+        } else if sideways >= turned {
             Cause::Sideways {
                 distance: correction.sideways,
             }
@@ -160,10 +207,16 @@ fn unit_ratio(ratio: f32) -> Option<f32> {
     })
 }
 
-impl fmt::Display for Cause {
-    /// One line; lengths in the template's unit.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
+impl Cause {
+    /// The line with the unit behind its lengths.
+    #[must_use]
+    pub const fn in_unit(self, unit: Unit) -> CauseInUnit {
+        CauseInUnit { cause: self, unit }
+    }
+
+    /// One line, with `unit` behind its lengths.
+    fn write(self, f: &mut fmt::Formatter<'_>, unit: &str) -> fmt::Result {
+        match self {
             Cause::Fits => f.write_str("what was observed fits the pose"),
             Cause::BehindCamera => f.write_str(
                 "the pose puts the object behind or around the camera, as a wrong unit would",
@@ -180,19 +233,20 @@ impl fmt::Display for Cause {
                 1.0 / factor
             ),
             Cause::InFront => f.write_str("another object stands in front of it"),
-            Cause::SeenThrough => {
-                f.write_str("the camera sees past it: nothing is where the pose puts it")
-            }
+            Cause::SeenThrough => f.write_str(
+                "the camera sees past it: what was measured lies behind where the pose puts it",
+            ),
             Cause::AlongRay { distance } if distance < 0.0 => write!(
                 f,
-                "offset along the ray: too far away by about {:.1}",
+                "offset along the ray: too far away by about {:.1}{unit}",
                 -distance
             ),
-            Cause::AlongRay { distance } => {
-                write!(f, "offset along the ray: too near by about {distance:.1}")
-            }
+            Cause::AlongRay { distance } => write!(
+                f,
+                "offset along the ray: too near by about {distance:.1}{unit}"
+            ),
             Cause::Sideways { distance } => {
-                write!(f, "offset across the ray by about {distance:.1}")
+                write!(f, "offset across the ray by about {distance:.1}{unit}")
             }
             Cause::Turned { angle } => write!(
                 f,
@@ -203,6 +257,37 @@ impl fmt::Display for Cause {
                 f.write_str("the shape does not fit, and no small motion makes it fit")
             }
             Cause::Hidden => f.write_str("most of it is hidden behind something else"),
+            Cause::Unmeasured => f.write_str(
+                "nothing was measured where it must be seen, or that lies outside of the image",
+            ),
         }
+    }
+}
+
+impl fmt::Display for Cause {
+    /// One line; lengths in the template's unit, which it does not name.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write(f, "")
+    }
+}
+
+/// A reason whose lengths name their unit: [`Cause::in_unit`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CauseInUnit {
+    cause: Cause,
+    unit: Unit,
+}
+
+impl fmt::Display for CauseInUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.cause.write(
+            f,
+            match self.unit {
+                Unit::Millimetre => " mm",
+                Unit::Centimetre => " cm",
+                Unit::Metre => " m",
+                Unit::Inch => " in",
+            },
+        )
     }
 }

@@ -72,22 +72,21 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         cells: &mut [Cell],
         alive: &mut impl FnMut(),
     ) -> Result<DepthReport, DepthError> {
-        let (expected, found) = (self.settings.cells(), cells.len());
-        let cells = cells
-            .get_mut(..expected)
-            .ok_or(DepthError::Cells { expected, found })?;
-        let noise = self.surface.noise();
+        let noise = self.noise();
         let mut report = DepthReport::behind_camera(pose, noise);
-        let Some(window) = self.window(pose) else {
+        let Some(buffer) = self.depth_buffer(pose, cells, alive)? else {
             report.depth_ratio = self.depth_ratio(pose, observed);
             return Ok(report);
         };
-        let buffer = self.visible(pose, window, cells, alive);
         let mut evidence = Evidence::default();
         for visible in buffer.visible() {
-            evidence.add(&visible, look_up(image, &visible, noise), noise);
+            let sight = look_up(image, &visible, noise);
+            evidence.add(&visible, sight, noise, self.surface.diameter());
         }
         report.take(&evidence);
+        if matches!(observed, Observed::Pixels(_)) {
+            report.depth_ratio = self.depth_ratio(pose, observed);
+        }
         let pixels = Pixels {
             observed,
             buffer: &buffer,
@@ -99,7 +98,27 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         Ok(report)
     }
 
-    /// What the observed pixels say of the depth of an object that nothing can be said of otherwise.
+    /// σ_m.
+    pub(super) fn noise(&self) -> f32 {
+        self.surface.noise()
+    }
+
+    /// The points that a camera sees at the pose; `None` where the object does not lie in front of it.
+    pub(super) fn depth_buffer<'m>(
+        &self,
+        pose: &Pose,
+        cells: &'m mut [Cell],
+        alive: &mut impl FnMut(),
+    ) -> Result<Option<ZBuffer<'m>>, DepthError> {
+        let (expected, found) = (self.settings.cells(), cells.len());
+        let cells = cells
+            .get_mut(..expected)
+            .ok_or(DepthError::Cells { expected, found })?;
+        let window = self.window(pose);
+        Ok(window.map(|window| self.visible(pose, window, cells, alive)))
+    }
+
+    /// What the observed pixels say of the object's depth.
     fn depth_ratio(&self, pose: &Pose, observed: Observed<'_>) -> f32 {
         let Observed::Pixels(pixels) = observed else {
             return 0.0;
@@ -191,7 +210,7 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         let mut turn = Turn::new(every);
         pixels.each(1, &mut |pixel| {
             feed(&mut count, alive);
-            let nearby = self.nearby(pose, pixel);
+            let nearby = self.look_back(pose, pixel);
             all.add(nearby);
             if turn.comes() {
                 some.add(nearby);
@@ -211,14 +230,18 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         let mut count = 0_u32;
         pixels.each(every, &mut |pixel| {
             feed(&mut count, alive);
-            equations.add(self.nearby(pose, pixel));
+            equations.add(self.look_back(pose, pixel));
         });
         equations
     }
 
-    /// A pixel's point on the object, and what the surface says of it.
+    /// A pixel put back into the object's frame, and what the surface says of it; `None` where that is nothing.
     #[inline(never)]
-    fn nearby(&self, pose: &Pose, pixel: &DepthPixel) -> Option<(Point3<f32>, Nearby)> {
+    pub(super) fn look_back(
+        &self,
+        pose: &Pose,
+        pixel: &DepthPixel,
+    ) -> Option<(Point3<f32>, Nearby)> {
         // What is infinitely far away lies on no surface.
         let point = self
             .camera

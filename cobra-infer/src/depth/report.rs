@@ -43,9 +43,13 @@ pub struct DepthReport {
     pub unmeasured: u32,
     /// How many of the judged ones the camera saw through, to something more than 3 σ behind them.
     pub seen_through: u32,
-    /// What was measured over what the pose says: the ratio of the sums of both depths over the visible points
-    /// that have one, hidden ones included; 0 without any.
+    /// What was measured over what the pose says: the ratio of the sums of both depths. Of the pixels of a mask
+    /// and the object's middle; without a mask of the visible points that have a depth, hidden ones included. 0
+    /// without any.
     pub depth_ratio: f32,
+    /// How far behind where the pose puts it the whole visible surface was measured, along the camera's axis;
+    /// below 0 in front. 0 where what was measured does not lie at a common distance.
+    pub common_offset: f32,
     /// What to do, and why.
     pub decision: Decision,
 }
@@ -70,6 +74,7 @@ impl DepthReport {
             unmeasured: 0,
             seen_through: 0,
             depth_ratio: 0.0,
+            common_offset: 0.0,
             decision: Decision::Reject(Rejection::BehindCamera),
         }
     }
@@ -82,6 +87,7 @@ impl DepthReport {
         self.unmeasured = evidence.unmeasured;
         self.seen_through = evidence.seen_through;
         self.depth_ratio = evidence.depth_ratio();
+        self.common_offset = evidence.common_offset();
     }
 
     /// Draws the conclusions.

@@ -3,11 +3,19 @@
 //! Owns the evidence of single points of the surface, and their mean.
 
 use super::observed::{DepthImage, DepthPixel};
+use super::residual::through;
 use super::zbuffer::Visible;
 use crate::math;
 
 /// Nearer than this many σ in front of a point of the surface, something else hides it.
 pub(super) const HIDDEN_SIGMAS: f32 = 3.0;
+
+/// An offset is that of the whole surface where so much of what was measured lies within a diameter of it …
+const COMMON_SHARE: f32 = 0.8;
+
+/// … and where its standard deviation is no more than this share of it. Right shapes at a wrong distance come to
+/// 0.1 to 0.5 on LineMOD-Occlusion, wrong shapes to more than 1.
+const COMMON_SPREAD: f32 = 0.6;
 
 /// What the image says of a point that must be visible.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,28 +62,56 @@ pub(super) struct Evidence {
     sum: f32,
     measured_depths: f32,
     expected_depths: f32,
+    near: u32,
+    offsets: f32,
+    offset_squares: f32,
 }
 
 impl Evidence {
     /// Takes a visible point in, and what was seen of it.
-    pub(super) fn add(&mut self, visible: &Visible, sight: Sight, sigma: f32) {
+    pub(super) fn add(&mut self, visible: &Visible, sight: Sight, sigma: f32, diameter: f32) {
         self.visible = self.visible.saturating_add(1);
         match sight {
             Sight::Unmeasured => self.unmeasured = self.unmeasured.saturating_add(1),
             Sight::Hidden(depth) => {
                 self.hidden = self.hidden.saturating_add(1);
                 self.compare(depth, visible.depth);
+                self.offset(depth - visible.depth, diameter);
             }
             Sight::Measured(pixel, behind) => {
                 self.compare(pixel.depth, visible.depth);
+                self.offset(behind, diameter);
                 self.judged = self.judged.saturating_add(1);
-                if behind > HIDDEN_SIGMAS * sigma {
+                if through(behind, sigma) {
                     self.seen_through = self.seen_through.saturating_add(1);
                 }
                 let scaled = behind / sigma;
                 self.sum += math::exp(-(0.5 * scaled * scaled));
             }
         }
+    }
+
+    /// Sums what lies within a diameter of where it must be.
+    fn offset(&mut self, behind: f32, diameter: f32) {
+        if math::abs(behind) < diameter {
+            self.near = self.near.saturating_add(1);
+            self.offsets += behind;
+            self.offset_squares += behind * behind;
+        }
+    }
+
+    /// How far behind the points something was measured on average, where that says it of all: where most lie
+    /// within a diameter, and scatter little around the mean. 0 where it does not.
+    pub(super) fn common_offset(&self) -> f32 {
+        let measured = self.judged.saturating_add(self.hidden) as f32;
+        let count = self.near as f32;
+        if self.near == 0 || count < COMMON_SHARE * measured {
+            return 0.0;
+        }
+        let mean = self.offsets / count;
+        let variance = self.offset_squares / count - mean * mean;
+        let most = COMMON_SPREAD * mean;
+        if variance <= most * most { mean } else { 0.0 }
     }
 
     /// Sums both depths; what is infinitely far away has no ratio.

@@ -10,6 +10,7 @@ use super::choices::{
     positive,
 };
 use super::learning::{OptimiserArgument, PriorMeanArgument, SubsetArgument, subset};
+use super::overlay::OverlayArguments;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use cobra_train::export::Identifier;
@@ -60,6 +61,8 @@ pub(crate) enum Command {
     Ambiguity(AmbiguityArguments),
     /// Find the thresholds for a false-accept rate on labelled estimates, and store them in a template
     Calibrate(CalibrateArguments),
+    /// Draw estimated poses over their image: residuals, box, decision and reason, as a PNG
+    Overlay(OverlayArguments),
     /// Show what is in a template, its size and its cost
     Inspect(InspectArguments),
     /// Write a template as a file, as Rust or as C, for firmware that keeps it in flash

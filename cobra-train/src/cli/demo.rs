@@ -106,7 +106,7 @@ fn judge(
     Ok((estimate, report))
 }
 
-fn to_pose(pose: &Isometry3<f64>) -> Result<Pose, cobra_infer::PoseError> {
+pub(super) fn to_pose(pose: &Isometry3<f64>) -> Result<Pose, cobra_infer::PoseError> {
     let rotation = pose.rotation.to_rotation_matrix().cast::<f32>();
     // nalgebra stores columns; the transposed matrix's columns are the rows.
     let rows = rotation.matrix().transpose();

@@ -120,6 +120,18 @@ impl From<ReadReportError> for Failure {
     }
 }
 
+impl From<&DatasetError> for Failure {
+    fn from(error: &DatasetError) -> Self {
+        classify(error.is_io(), error)
+    }
+}
+
+impl From<ReadResultsError> for Failure {
+    fn from(error: ReadResultsError) -> Self {
+        classify(error.is_io(), &error)
+    }
+}
+
 impl From<TrainError> for Failure {
     fn from(error: TrainError) -> Self {
         Failure::BadInput(error.to_string())

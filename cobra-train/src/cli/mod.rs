@@ -18,6 +18,7 @@ mod inspect;
 mod learning;
 mod object;
 mod outputs;
+mod overlay;
 mod report;
 mod score;
 mod template_file;
@@ -42,6 +43,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Bop(arguments) => bop::run(arguments, &terminal),
         Command::Ambiguity(arguments) => ambiguity::run(arguments, &terminal),
         Command::Calibrate(arguments) => calibrate::run(arguments, &terminal),
+        Command::Overlay(arguments) => overlay::run(arguments, &terminal),
         Command::Inspect(arguments) => inspect::run(arguments, &terminal),
         Command::Export(arguments) => export::run(arguments, &terminal),
         Command::Completions { shell } => {

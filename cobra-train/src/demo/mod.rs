@@ -3,7 +3,7 @@
 
 mod axis;
 mod camera;
-mod canvas;
+pub(crate) mod canvas;
 mod image;
 mod outline;
 mod panel;

@@ -14,10 +14,10 @@ use super::canvas::Canvas;
 use super::picture::Verdict;
 
 /// The page is drawn this many times larger, and then reduced.
-pub(super) const SUPERSAMPLING: i32 = 2;
+pub(crate) const SUPERSAMPLING: i32 = 2;
 
 /// A length of the finished picture, in pixels of the page.
-pub(super) const fn px(length: i32) -> i32 {
+pub(crate) const fn px(length: i32) -> i32 {
     length * SUPERSAMPLING
 }
 
@@ -26,8 +26,8 @@ pub(crate) const INK: RGBColor = RGBColor(28, 32, 40);
 pub(crate) const QUIET: RGBColor = RGBColor(92, 98, 110);
 pub(crate) const HAIRLINE: RGBColor = RGBColor(226, 229, 234);
 
-pub(super) type Page<'a> = DrawingArea<Canvas<'a>, Shift>;
-pub(super) type Drawn = Result<(), DrawingAreaErrorKind<Infallible>>;
+pub(crate) type Page<'a> = DrawingArea<Canvas<'a>, Shift>;
+pub(crate) type Drawn = Result<(), DrawingAreaErrorKind<Infallible>>;
 
 impl Verdict {
     pub(super) const ALL: [Self; 3] = [Self::Accept, Self::Undecided, Self::Reject];
@@ -49,7 +49,7 @@ impl Verdict {
         }
     }
 
-    pub(super) fn verdict(self) -> &'static str {
+    pub(crate) fn verdict(self) -> &'static str {
         match self {
             Self::Accept => "ACCEPT",
             Self::Undecided => "UNDECIDED",
@@ -67,7 +67,7 @@ impl Verdict {
 }
 
 /// Type of `size` pixels of the finished picture.
-pub(super) fn text(size: i32, colour: RGBColor, across: HPos, up: VPos) -> TextStyle<'static> {
+pub(crate) fn text(size: i32, colour: RGBColor, across: HPos, up: VPos) -> TextStyle<'static> {
     TextStyle {
         font: ("sans-serif", px(size)).into_font(),
         color: colour.to_backend_color(),
@@ -76,7 +76,7 @@ pub(super) fn text(size: i32, colour: RGBColor, across: HPos, up: VPos) -> TextS
 }
 
 /// As [`text`], in bold.
-pub(super) fn bold(size: i32, colour: RGBColor, across: HPos, up: VPos) -> TextStyle<'static> {
+pub(crate) fn bold(size: i32, colour: RGBColor, across: HPos, up: VPos) -> TextStyle<'static> {
     let style = text(size, colour, across, up);
     TextStyle {
         font: style.font.style(FontStyle::Bold),
@@ -110,7 +110,7 @@ pub(super) fn mark(page: &Page, decision: Verdict, (x, y): (i32, i32)) -> Drawn 
 }
 
 /// A seal: the decision's sign in white on a disc of its colour.
-pub(super) fn seal(page: &Page, decision: Verdict, (x, y): (i32, i32)) -> Drawn {
+pub(crate) fn seal(page: &Page, decision: Verdict, (x, y): (i32, i32)) -> Drawn {
     let white = PAPER.stroke_width(px(3) as u32);
     page.draw(&Circle::new((x, y), px(15), PAPER.filled()))?;
     page.draw(&Circle::new((x, y), px(13), decision.colour().filled()))?;

@@ -15,6 +15,7 @@ mod inspect;
 mod learning;
 mod map;
 mod output;
+mod overlay;
 mod placement;
 mod run;
 mod scene;

@@ -354,6 +354,7 @@ const fn cause_words(cause: Cause) -> (u32, f32) {
         Cause::Turned { angle } => (7, angle),
         Cause::Elsewhere => (8, 0.0),
         Cause::Hidden => (9, 0.0),
+        Cause::Unmeasured => (10, 0.0),
     }
 }
 

@@ -3,20 +3,20 @@
 //! Owns which forms of PNG are read. Images are checked before they are decoded.
 
 use super::DatasetError;
+use crate::demo::RgbImage;
 use crate::depth_image::DepthImage;
 use crate::input::ImageSize;
 use crate::pixel_mask::PixelMask;
-use png::{BitDepth, ColorType};
+use png::{BitDepth, ColorType, Transformations};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 /// A depth image: 16-bit grey of the expected size, each value times `scale` in millimetres.
-pub(super) fn read_depth(
-    path: &Path,
-    size: ImageSize,
-    scale: f32,
-) -> Result<DepthImage, DatasetError> {
+///
+/// # Errors
+/// [`DatasetError`]: no such file, another size than `size`, or no 16-bit grey PNG.
+pub fn read_depth(path: &Path, size: ImageSize, scale: f32) -> Result<DepthImage, DatasetError> {
     let bytes = read(path, size, BitDepth::Sixteen)?;
     let values = bytes.as_chunks::<2>().0.iter();
     let depths = values.map(|value| f32::from(u16::from_be_bytes(*value)) * scale);
@@ -24,7 +24,10 @@ pub(super) fn read_depth(
 }
 
 /// A mask: 8-bit grey of the expected size; what is not 0 is in.
-pub(super) fn read_mask(path: &Path, size: ImageSize) -> Result<PixelMask, DatasetError> {
+///
+/// # Errors
+/// [`DatasetError`]: no such file, another size than `size`, or no 8-bit grey PNG.
+pub fn read_mask(path: &Path, size: ImageSize) -> Result<PixelMask, DatasetError> {
     let bytes = read(path, size, BitDepth::Eight)?;
     Ok(PixelMask::new(
         size,
@@ -55,14 +58,48 @@ pub fn mask_in(
 }
 
 /// The size that an image's header states.
-pub(super) fn size_of(path: &Path) -> Result<ImageSize, DatasetError> {
-    let reader = open(path, || "a PNG image".to_owned())?;
+///
+/// # Errors
+/// [`DatasetError`]: no such file, or no PNG.
+pub fn size_of(path: &Path) -> Result<ImageSize, DatasetError> {
+    let reader = open(path, || "a PNG image".to_owned(), Transformations::IDENTITY)?;
     Ok(size(reader.info()))
+}
+
+/// A photograph of the expected size: a PNG of any kind, in 8 bits a channel; transparency does not count.
+///
+/// # Errors
+/// [`DatasetError`]: no such file, another size than `expected`, or no PNG.
+pub fn read_photo(path: &Path, expected: ImageSize) -> Result<RgbImage, DatasetError> {
+    let described = || format!("PNG of {expected}");
+    let transformations = Transformations::EXPAND | Transformations::STRIP_16;
+    let mut reader = open(path, described, transformations)?;
+    let found = size(reader.info());
+    let refused = |found: String| DatasetError::Image {
+        path: path.to_owned(),
+        expected: described(),
+        found,
+    };
+    if found != expected {
+        return Err(refused(format!("PNG of {found}")));
+    }
+    let bytes = frame(&mut reader).map_err(refused)?;
+    let channels = reader.output_color_type().0.samples();
+    let pixels = bytes.chunks_exact(channels).flat_map(|pixel| match pixel {
+        [red, green, blue] | [red, green, blue, _] => [*red, *green, *blue],
+        [grey, ..] => [*grey; 3],
+        [] => [0; 3],
+    });
+    Ok(RgbImage {
+        width: expected.width,
+        height: expected.height,
+        pixels: pixels.collect(),
+    })
 }
 
 fn read(path: &Path, expected: ImageSize, depth: BitDepth) -> Result<Vec<u8>, DatasetError> {
     let described = || describe(ColorType::Grayscale, depth, expected);
-    let mut reader = open(path, described)?;
+    let mut reader = open(path, described, Transformations::IDENTITY)?;
     let refused = |found| DatasetError::Image {
         path: path.to_owned(),
         expected: described(),
@@ -73,11 +110,16 @@ fn read(path: &Path, expected: ImageSize, depth: BitDepth) -> Result<Vec<u8>, Da
     if found != (ColorType::Grayscale, depth, expected) {
         return Err(refused(describe(found.0, found.1, found.2)));
     }
+    frame(&mut reader).map_err(refused)
+}
+
+/// The decoded bytes, or what is wrong with them.
+fn frame(reader: &mut png::Reader<BufReader<File>>) -> Result<Vec<u8>, String> {
     let count = reader.output_buffer_size();
-    let mut bytes = vec![0; count.ok_or_else(|| refused("one too large for memory".to_owned()))?];
+    let mut bytes = vec![0; count.ok_or_else(|| "one too large for memory".to_owned())?];
     let frame = reader
         .next_frame(&mut bytes)
-        .map_err(|error| refused(error.to_string()))?;
+        .map_err(|error| error.to_string())?;
     bytes.truncate(frame.buffer_size());
     Ok(bytes)
 }
@@ -85,9 +127,11 @@ fn read(path: &Path, expected: ImageSize, depth: BitDepth) -> Result<Vec<u8>, Da
 fn open(
     path: &Path,
     expected: impl Fn() -> String,
+    transformations: Transformations,
 ) -> Result<png::Reader<BufReader<File>>, DatasetError> {
     let file = File::open(path).map_err(|source| DatasetError::io(path, source))?;
-    let decoder = png::Decoder::new(BufReader::new(file));
+    let mut decoder = png::Decoder::new(BufReader::new(file));
+    decoder.set_transformations(transformations);
     decoder.read_info().map_err(|error| match error {
         png::DecodingError::IoError(source)
             if source.kind() != std::io::ErrorKind::UnexpectedEof =>

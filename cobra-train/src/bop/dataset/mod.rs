@@ -12,7 +12,7 @@ mod scene;
 mod tests;
 
 pub use error::DatasetError;
-pub use image::mask_in;
+pub use image::{mask_in, read_depth, read_mask, read_photo, size_of};
 pub use models::{ModelInfo, Models, read_model_info};
 pub use scene::{Annotation, Scene};
 
@@ -38,6 +38,12 @@ impl Dataset {
             root: root.to_owned(),
             split,
         })
+    }
+
+    /// The split's folder, in which the scenes lie.
+    #[must_use]
+    pub fn split(&self) -> &Path {
+        &self.split
     }
 
     /// The scene of this number.

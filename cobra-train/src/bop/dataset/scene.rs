@@ -1,8 +1,9 @@
 //! A scene: images of one camera path, their cameras and true poses, by their ids.
 
 use super::document::{Document, Entry};
-use super::image::{read_depth, read_mask};
+use super::image::{read_depth, read_mask, read_photo};
 use super::{DatasetError, place_of};
+use crate::demo::RgbImage;
 use crate::depth_image::DepthImage;
 use crate::input::json::{Misfit, exact_numbers};
 use crate::input::{ImageCamera, ImageSize, image_camera};
@@ -116,6 +117,16 @@ impl Scene {
             DatasetError::form(entry.path, misfit)
         })?;
         read_depth(&self.depth_path(image), size, scale)
+    }
+
+    /// The photograph of an image: its PNG in `rgb`, else in `gray`; `None` where there is neither.
+    ///
+    /// # Errors
+    /// [`DatasetError`]: another size than `size`, or no PNG.
+    pub fn photo(&self, image: u32, size: ImageSize) -> Result<Option<RgbImage>, DatasetError> {
+        let paths = ["rgb", "gray"].map(|name| self.folder.join(format!("{name}/{image:06}.png")));
+        let path = paths.iter().find(|path| path.exists());
+        path.map(|path| read_photo(path, size)).transpose()
     }
 
     /// The file of the mask of the pixels that show an annotated object, counted as in

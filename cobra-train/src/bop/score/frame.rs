@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
 /// The scenes that results are of, and the models that are rendered.
-pub(super) struct Frames<'d> {
+pub struct Frames<'d> {
     dataset: &'d Dataset,
     options: ScoreOptions,
     scenes: BTreeMap<u32, Result<Scene, Arc<DatasetError>>>,
@@ -26,8 +26,8 @@ pub(super) struct Frames<'d> {
 
 type Prepared = Result<Arc<RenderModel>, Arc<DatasetError>>;
 
-/// One image.
-pub(super) struct Frame {
+/// An image: its camera, its depth, and which pixels show what.
+pub struct Frame {
     camera: Camera,
     size: ImageSize,
     annotations: Vec<Annotation>,
@@ -49,7 +49,9 @@ enum MaskSource {
 }
 
 impl<'d> Frames<'d> {
-    pub(super) fn new(
+    /// Opens the scenes; what is wrong with one is told when it is asked for.
+    #[must_use]
+    pub fn new(
         dataset: &'d Dataset,
         scenes: impl Iterator<Item = u32>,
         options: &ScoreOptions,
@@ -78,8 +80,14 @@ impl<'d> Frames<'d> {
         }
     }
 
-    /// Everything of an image that scoring needs, or what is wrong with it.
-    pub(super) fn open(&self, scene_id: u32, image: u32) -> Result<Frame, Arc<DatasetError>> {
+    /// Everything of an image that scoring needs.
+    ///
+    /// # Errors
+    /// [`DatasetError`]: what is wrong with the image, its scene, or the models that are rendered.
+    ///
+    /// # Panics
+    /// If the scene was not among those that were opened.
+    pub fn open(&self, scene_id: u32, image: u32) -> Result<Frame, Arc<DatasetError>> {
         let scene = self.scene(scene_id)?;
         let camera = scene.camera(image)?.camera;
         let size = self.dataset.image_size(scene, image)?;
@@ -169,11 +177,18 @@ impl<'d> Frames<'d> {
 }
 
 impl Frame {
-    pub(super) fn camera(&self) -> &Camera {
+    /// The camera that took it.
+    #[must_use]
+    pub fn camera(&self) -> &Camera {
         &self.camera
     }
 
-    pub(super) fn depth(&self) -> &DepthImage {
+    /// The depth that counts: measured or simulated, as the options say.
+    ///
+    /// # Panics
+    /// Never: one of both is there.
+    #[must_use]
+    pub fn depth(&self) -> &DepthImage {
         let rendered = self.rendering.as_ref().map(SimulatedFrame::depth);
         // One of both is there: `open` reads or renders.
         self.measured.as_ref().or(rendered).expect("depth")
@@ -181,7 +196,10 @@ impl Frame {
 
     /// At most `most` of the pixels that show an object, spread evenly; of several of its kind, the one
     /// whose pixels lie around where it is expected. `None` where no mask says.
-    pub(super) fn pixels(
+    ///
+    /// # Errors
+    /// [`DatasetError`]: what is wrong with a mask.
+    pub fn pixels(
         &self,
         object: u32,
         expected: Option<Point2<f32>>,

@@ -10,6 +10,7 @@ mod summary;
 mod truth;
 
 pub use document::ReportDocument;
+pub use frame::{Frame, Frames};
 pub use problem::Problem;
 pub use summary::Summary;
 pub use truth::{Errors, Truth};
@@ -21,7 +22,6 @@ use crate::progress::Progress;
 use cobra_infer::depth::{
     Cause, Cell, Correction, DepthCheck, DepthReport, DepthSettings, Observed, Surface,
 };
-use frame::{Frame, Frames};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
