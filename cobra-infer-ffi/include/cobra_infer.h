@@ -544,6 +544,10 @@ enum CobraCause
    * Little of it can be seen behind something else.
    */
   COBRA_CAUSE_HIDDEN = 10,
+  /**
+   * Nothing was measured where it must be seen, or that lies outside of the image.
+   */
+  COBRA_CAUSE_UNMEASURED = 11,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -123,6 +123,8 @@ pub enum CobraCause {
     Elsewhere = 9,
     /// Little of it can be seen behind something else.
     Hidden = 10,
+    /// Nothing was measured where it must be seen, or that lies outside of the image.
+    Unmeasured = 11,
 }
 
 /// The answer of a check against depth. None of its numbers is ever NaN; lengths are in the
@@ -327,5 +329,6 @@ pub(crate) const fn cause(cause: Cause) -> (CobraCause, f32) {
         Cause::Turned { angle } => (C::Turned, angle),
         Cause::Elsewhere => (C::Elsewhere, 0.0),
         Cause::Hidden => (C::Hidden, 0.0),
+        Cause::Unmeasured => (C::Unmeasured, 0.0),
     }
 }

@@ -44,6 +44,7 @@ pub(crate) const fn cause_text(cause: u32) -> &'static CStr {
         8 => c"turned",
         9 => c"the shape does not fit, and no small motion makes it fit",
         10 => c"most of it is hidden behind something else",
+        11 => c"nothing was measured where it must be seen",
         _ => c"unknown cause",
     }
 }

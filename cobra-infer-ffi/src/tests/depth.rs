@@ -434,6 +434,7 @@ fn every_cause_has_a_number_and_a_text_of_its_own() {
         Cause::Turned { angle: 0.5 },
         Cause::Elsewhere,
         Cause::Hidden,
+        Cause::Unmeasured,
     ];
     let mut texts = HashSet::from([cause_text(CobraCause::NotChecked as u32)]);
     for (number, rust) in (1..).zip(causes) {
@@ -443,6 +444,6 @@ fn every_cause_has_a_number_and_a_text_of_its_own() {
         let text = unsafe { CStr::from_ptr(crate::strings::cobra_cause_string(number)) };
         assert_eq!(text, cause_text(number));
     }
-    assert!(texts.insert(cause_text(11)));
+    assert!(texts.insert(cause_text(12)));
     assert_eq!(cause(Cause::AlongRay { distance: -2.0 }).1, -2.0);
 }
