@@ -82,6 +82,20 @@ impl TemplateFile {
         let room = vec![DecodedTerm::default(); template.decoded_len()];
         Ok(Self { path, bytes, room })
     }
+
+    /// The template, decoded where that makes it faster.
+    ///
+    /// # Panics
+    /// Never: the bytes were checked when they were read.
+    pub fn template(&mut self) -> Template<'_> {
+        self.with_path().1
+    }
+
+    fn with_path(&mut self) -> (&Path, Template<'_>) {
+        let template = Template::from_bytes(&self.bytes).expect("checked when it was read");
+        let decoded = template.decoded(&mut self.room);
+        (&self.path, decoded.unwrap_or(template))
+    }
 }
 
 /// The templates of some objects.
@@ -107,7 +121,7 @@ impl TemplateFolder {
     ) -> R {
         let files = self.files.iter_mut();
         let templates: Vec<_> = files
-            .map(|(object, file)| (*object, file.as_mut().map(template)))
+            .map(|(object, file)| (*object, file.as_mut().map(TemplateFile::with_path)))
             .collect();
         let surfaces = templates
             .iter()
@@ -121,13 +135,6 @@ impl TemplateFolder {
             .collect();
         act(&surfaces)
     }
-}
-
-/// The template of a file that was checked when it was read, decoded where that makes it faster.
-fn template(file: &mut TemplateFile) -> (&Path, Template<'_>) {
-    let template = Template::from_bytes(&file.bytes).expect("checked when it was read");
-    let decoded = template.decoded(&mut file.room);
-    (&file.path, decoded.unwrap_or(template))
 }
 
 fn surface<'t>(

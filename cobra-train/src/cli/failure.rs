@@ -67,7 +67,7 @@ impl From<WriteError> for Failure {
 
 impl From<DatasetError> for Failure {
     fn from(error: DatasetError) -> Self {
-        classify(error.is_io(), &error)
+        Self::from(&error)
     }
 }
 
@@ -123,12 +123,6 @@ impl From<ReadReportError> for Failure {
 impl From<&DatasetError> for Failure {
     fn from(error: &DatasetError) -> Self {
         classify(error.is_io(), error)
-    }
-}
-
-impl From<ReadResultsError> for Failure {
-    fn from(error: ReadResultsError) -> Self {
-        classify(error.is_io(), &error)
     }
 }
 

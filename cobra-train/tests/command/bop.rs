@@ -1,7 +1,7 @@
 //! `cobra bop`: a small data set of one box in three images, its results file, and what is wrong with both.
 
 use crate::run::{Outcome, json, run, succeed};
-use crate::scene::{MORE, Scene};
+use crate::scene::Scene;
 use serde_json::{Value, json};
 
 const IDENTITY: &str = "1 0 0 0 1 0 0 0 1";

@@ -9,7 +9,6 @@ use super::super::terminal::Terminal;
 use super::arguments::{BopArguments, DepthArgument};
 use super::{Seen, Shown, estimate, file_name, skip};
 use cobra_infer::Pose;
-use cobra_infer::depth::DepthSettings;
 use cobra_train::bop::dataset::{Dataset, DatasetError, Scene};
 use cobra_train::bop::results::{Results, read_results};
 use cobra_train::bop::score::{DepthSource, Frames, Masks, ScoreOptions};
@@ -32,15 +31,13 @@ pub(super) fn read(
     arguments: &BopArguments,
     terminal: &Terminal,
 ) -> Result<Shown, Failure> {
-    let dataset = Dataset::open(folder, &arguments.split).map_err(|error| Failure::from(&error))?;
+    let dataset = Dataset::open(folder, &arguments.split)?;
     let results = match &arguments.results {
         Some(path) => Some((path.as_path(), read_results(path)?)),
         None => None,
     };
     let (scene_id, image) = image_of(arguments, results.as_ref())?;
-    let scene = dataset
-        .scene(scene_id)
-        .map_err(|error| Failure::from(&error))?;
+    let scene = dataset.scene(scene_id)?;
     let wanted = wanted(arguments, results.as_ref(), &scene, image)?;
     let masks = arguments
         .masks
@@ -56,7 +53,6 @@ pub(super) fn read(
         masks,
         seed: arguments.seed,
         pixels: ScoreOptions::PIXELS,
-        settings: DepthSettings::DEFAULT,
     };
     let subtitle = subtitle(arguments, &options, scene_id, image);
     let frames = Frames::new(&dataset, std::iter::once(scene_id), &options);
@@ -64,9 +60,7 @@ pub(super) fn read(
         .open(scene_id, image)
         .map_err(|error| Failure::from(&*error))?;
     let size = frame.depth().size();
-    let photo = scene
-        .photo(image, size)
-        .map_err(|error| Failure::from(&error))?;
+    let photo = scene.photo(image, size)?;
     let photo = photo.unwrap_or_else(|| grey_depth(frame.depth()));
 
     // Required with the data set.
@@ -189,7 +183,7 @@ fn wanted(
             (rows.collect(), path.display().to_string())
         }
         None if arguments.truth => {
-            let annotations = scene.truth(image).map_err(|error| Failure::from(&error))?;
+            let annotations = scene.truth(image)?;
             let path = scene.folder().join("scene_gt.json");
             let poses = annotations.iter().filter(|one| of_object(one.obj_id));
             let poses = poses.map(|one| Wanted {
