@@ -2,10 +2,11 @@
 //! confidences tell right from wrong poses, what a template loses to the exact mesh, what the estimated
 //! error is worth, and what thresholds found on some objects do on others.
 //!
-//! `cargo run --release -p cobra-tests --example lmo-table -- --data DIR --templates DIR [--seed N]`; DIR
+//! `cargo run --release -p cobra-tests --example lmo-table -- --data DIR --templates DIR [--seed N] [--noise-share X]`; DIR
 //! is LM-O in BOP's layout with `estimates/`, the templates are those of `cobra bop train`.
 
 use cobra_infer::depth::{DepthReport, DepthSettings, Surface};
+use cobra_infer::template::DepthRecord;
 use cobra_train::bop::dataset::Dataset;
 use cobra_train::bop::results::{Results, read_results};
 use cobra_train::bop::score::{
@@ -35,6 +36,7 @@ struct Arguments {
     data: PathBuf,
     templates: PathBuf,
     seed: u64,
+    noise_share: f32,
 }
 
 /// A number of a report that orders estimates, the larger the better.
@@ -48,8 +50,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments = arguments()?;
     let dataset = Dataset::open(&arguments.data, "test")?;
     let (estimates, ends) = estimates(&arguments)?;
-    let mut templates = TemplateFolder::read(&arguments.templates, OBJECTS);
-    let meshes = meshes(&dataset, arguments.seed)?;
+    let templates = TemplateFolder::read(&arguments.templates, OBJECTS);
+    let mut templates = templates.with_noise_share(arguments.noise_share);
+    let meshes = meshes(&dataset, &arguments)?;
 
     println!(
         "| pixels | surface | score | AUC | {} | rank correlation |",
@@ -103,7 +106,10 @@ fn estimates(arguments: &Arguments) -> Result<(Results, Vec<usize>), Box<dyn Err
     Ok((Results { rows }, ends))
 }
 
-fn meshes(dataset: &Dataset, seed: u64) -> Result<Surfaces<MeshSurface>, Box<dyn Error>> {
+fn meshes(
+    dataset: &Dataset,
+    arguments: &Arguments,
+) -> Result<Surfaces<MeshSurface>, Box<dyn Error>> {
     let models = dataset.models("models")?;
     let mut meshes = Surfaces::new();
     for object in OBJECTS {
@@ -111,8 +117,8 @@ fn meshes(dataset: &Dataset, seed: u64) -> Result<Surfaces<MeshSurface>, Box<dyn
             return Err(format!("{}: no mesh", models.path(object).display()).into());
         };
         let settings = DepthSettings::DEFAULT;
-        let noise = settings.noise.at(mesh.diameter() as f32, 0.0)?;
-        let surface = MeshSurface::new(&mesh, noise, seed);
+        let noise = arguments.noise_share * mesh.diameter() as f32;
+        let surface = MeshSurface::new(&mesh, noise, arguments.seed);
         meshes.insert(object, Ok(Checked { surface, settings }));
     }
     Ok(meshes)
@@ -276,8 +282,9 @@ fn own_scores(
 }
 
 fn arguments() -> Result<Arguments, Box<dyn Error>> {
-    let usage = "lmo-table --data DIR --templates DIR [--seed N]";
+    let usage = "lmo-table --data DIR --templates DIR [--seed N] [--noise-share X]";
     let (mut data, mut templates, mut seed) = (None, None, 0);
+    let mut noise_share = DepthRecord::NOISE_SHARE;
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         let value = words.next().ok_or(usage)?;
@@ -285,6 +292,7 @@ fn arguments() -> Result<Arguments, Box<dyn Error>> {
             "--data" => data = Some(value.into()),
             "--templates" => templates = Some(value.into()),
             "--seed" => seed = value.parse()?,
+            "--noise-share" => noise_share = value.parse()?,
             _ => return Err(usage.into()),
         }
     }
@@ -292,5 +300,6 @@ fn arguments() -> Result<Arguments, Box<dyn Error>> {
         data: data.ok_or(usage)?,
         templates: templates.ok_or(usage)?,
         seed,
+        noise_share,
     })
 }

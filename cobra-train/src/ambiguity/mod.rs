@@ -78,7 +78,7 @@ pub struct SearchOptions {
 }
 
 impl SearchOptions {
-    /// Twelve views, rotations 23° apart, all pixels that show the object, depth without noise, nine
+    /// Twelve views, rotations 23° apart, all pixels that show the object, depth without noise, eight
     /// tenths of the true pose's confidence.
     #[must_use]
     pub fn new(settings: DepthSettings) -> Self {
@@ -87,7 +87,7 @@ impl SearchOptions {
             candidates: CANDIDATES,
             masks: Masks::Visible,
             noise: 0.0,
-            share: 0.9,
+            share: 0.8,
             settings,
             seed: 0,
         }

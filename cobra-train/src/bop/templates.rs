@@ -2,7 +2,7 @@
 
 use super::score::{Checked, Surfaces};
 use crate::train::LARGEST_TEMPLATE;
-use cobra_infer::depth::{DepthError, DepthSettings, TemplateSurface};
+use cobra_infer::depth::{DepthError, DepthSettings, Noise, TemplateSurface};
 use cobra_infer::template::DecodedTerm;
 use cobra_infer::{Template, TemplateError, Unit};
 use std::collections::BTreeMap;
@@ -102,6 +102,7 @@ impl TemplateFile {
 #[derive(Debug)]
 pub struct TemplateFolder {
     files: BTreeMap<u32, Result<TemplateFile, Arc<TemplateFileError>>>,
+    noise_share: Option<f32>,
 }
 
 impl TemplateFolder {
@@ -111,7 +112,16 @@ impl TemplateFolder {
         let read = |object| (object, TemplateFile::read(folder, object).map_err(Arc::new));
         Self {
             files: objects.into_iter().map(read).collect(),
+            noise_share: None,
         }
+    }
+
+    /// The same with this share of each object's diameter for σ_m, in the place of what the templates record.
+    /// Thresholds that a template has were found with its own.
+    #[must_use]
+    pub fn with_noise_share(mut self, share: f32) -> Self {
+        self.noise_share = Some(share);
+        self
     }
 
     /// Hands over the templates as surfaces, each with the noise and the thresholds that it records.
@@ -119,6 +129,7 @@ impl TemplateFolder {
         &mut self,
         act: impl FnOnce(&Surfaces<TemplateSurface<'_, LARGEST_TEMPLATE>>) -> R,
     ) -> R {
+        let noise_share = self.noise_share;
         let files = self.files.iter_mut();
         let templates: Vec<_> = files
             .map(|(object, file)| (*object, file.as_mut().map(TemplateFile::with_path)))
@@ -127,7 +138,7 @@ impl TemplateFolder {
             .iter()
             .map(|(object, template)| {
                 let surface = match template {
-                    Ok((path, template)) => surface(path, template).map_err(Arc::new),
+                    Ok((path, template)) => surface(path, template, noise_share).map_err(Arc::new),
                     Err(error) => Err(Arc::clone(error)),
                 };
                 (*object, surface)
@@ -140,8 +151,12 @@ impl TemplateFolder {
 fn surface<'t>(
     path: &Path,
     template: &'t Template<'t>,
+    noise_share: Option<f32>,
 ) -> Result<Checked<TemplateSurface<'t, LARGEST_TEMPLATE>>, TemplateFileError> {
-    let settings = DepthSettings::for_template(template);
+    let mut settings = DepthSettings::for_template(template);
+    if let Some(share) = noise_share {
+        settings.noise = Noise::Share(share);
+    }
     // The depth matters to a sensor's noise alone, and templates record a share.
     let surface = settings
         .noise

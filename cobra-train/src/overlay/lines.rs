@@ -26,10 +26,13 @@ pub(super) fn line(
 /// The part of a segment that lies in 0 ≤ x ≤ width, 0 ≤ y ≤ height (Y.-D. Liang and B. Barsky, ACM Trans.
 /// Graph. 3, 1984); `None` where there is none.
 fn clipped([a, b]: [Point2<f32>; 2], size: [f32; 2]) -> Option<[Point2<f32>; 2]> {
+    // What lies next to the camera's plane is projected so far away that single precision loses the panel.
+    let (a, b) = (a.cast::<f64>(), b.cast::<f64>());
     let step = b - a;
-    let (mut from, mut to) = (0.0_f32, 1.0_f32);
+    let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for axis in 0..2 {
-        for (towards, room) in [(-step[axis], a[axis]), (step[axis], size[axis] - a[axis])] {
+        let end = f64::from(size[axis]);
+        for (towards, room) in [(-step[axis], a[axis]), (step[axis], end - a[axis])] {
             if towards > 0.0 {
                 to = to.min(room / towards);
             } else if towards < 0.0 {
@@ -39,7 +42,7 @@ fn clipped([a, b]: [Point2<f32>; 2], size: [f32; 2]) -> Option<[Point2<f32>; 2]>
             }
         }
     }
-    (from <= to).then(|| [a + step * from, a + step * to])
+    (from <= to).then(|| [from, to].map(|at| (a + step * at).cast()))
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use std::path::PathBuf;
     after_help = "The object is rendered alone in views from all around; in each, rotations spread over all \
                   that there are follow the pose that the depth check suggests until they rest. Told is what \
                   rests at an ADD of at least a tenth of the diameter with a confidence that the template's \
-                  calibration accepts, or without one with nine tenths of the true pose's.\n\n\
+                  calibration accepts, or without one with eight tenths of the true pose's.\n\n\
                   Examples:\n  cobra ambiguity part.cobra --mesh part.ply\n  cobra ambiguity \
                   obj_000011.cobra --mesh models/obj_000011.ply --models-info models/models_info.json \
                   --object 11 --json -"
