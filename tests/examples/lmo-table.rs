@@ -1,9 +1,11 @@
 //! Scores the estimates of LineMOD-Occlusion and prints the tables of `docs/DEPTH.md`: how well
 //! confidences tell right from wrong poses, what a template loses to the exact mesh, what the estimated
-//! error is worth, and what thresholds found on some objects do on others.
+//! error is worth, what thresholds found on some objects do on others, and what thresholds found on
+//! simulated estimates do on these (`docs/CALIBRATION.md`).
 //!
-//! `cargo run --release -p cobra-tests --example lmo-table -- --data DIR --templates DIR [--seed N] [--noise-share X]`; DIR
-//! is LM-O in BOP's layout with `estimates/`, the templates are those of `cobra bop train`.
+//! `cargo run --release -p cobra-tests --example lmo-table -- --data DIR --templates DIR [--seed N]
+//! [--noise-share X]`; DIR is LM-O in BOP's layout with `estimates/`, the templates are those of `cobra bop
+//! train`.
 
 use cobra_infer::depth::{DepthReport, DepthSettings, Surface};
 use cobra_infer::template::DepthRecord;
@@ -17,6 +19,7 @@ use cobra_train::calibrate::{Aim, Labelled, Rate, Roc, calibrate};
 use cobra_train::depth::MeshSurface;
 use cobra_train::evaluate::rank_correlation;
 use cobra_train::progress::Silent;
+use cobra_train::simulation::{Simulation, simulate};
 use cobra_train::surface::Geometry;
 use std::error::Error;
 use std::path::PathBuf;
@@ -30,7 +33,16 @@ const HALVES: [[u32; 4]; 2] = [[1, 5, 6, 8], [9, 10, 11, 12]];
 /// Noise on the simulated depth, in mm.
 const NOISE: f64 = 1.5;
 
-const FALSE_ACCEPTS: f64 = 0.01;
+const AIM: Aim = Aim {
+    false_accepts: 0.01,
+    rejected_right: 0.01,
+};
+
+/// Estimates that `cobra calibrate --simulate` would be asked for.
+const SIMULATED: usize = 4000;
+
+/// Of these errors are ADD-S.
+const SYMMETRIC: [u32; 2] = [10, 11];
 
 struct Arguments {
     data: PathBuf,
@@ -61,10 +73,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("|---|---|---|--:|--:|--:|--:|--:|");
     let mut errors = Vec::new();
     let mut thresholds = Vec::new();
+    let mut simulated = Vec::new();
     for (name, masks) in [
         ("mask", Masks::Simulated),
         ("silhouette", Masks::Silhouette),
     ] {
+        let masked = masks == Masks::Simulated;
         let options = options(masks, arguments.seed);
         let scored =
             templates.with_surfaces(|surfaces| run(&dataset, &estimates, surfaces, &options));
@@ -80,6 +94,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         errors.push(error_line(name, &scored));
         thresholds.extend(threshold_lines(name, &scored)?);
+        simulated.extend(templates.with_surfaces(|surfaces| {
+            simulated_lines((name, masked), &scored, surfaces, arguments.seed)
+        })?);
     }
     println!(
         "\n| pixels | rank correlation of estimated and true error | estimated over true error, median of wrong poses within 0.5 d |"
@@ -91,6 +108,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     println!("|---|---|--:|--:|--:|---|--:|--:|");
     thresholds.iter().for_each(|line| println!("{line}"));
+    println!(
+        "\n| pixels | object | accept from | accepted of wrong ones | of right ones |\n|---|--:|--:|--:|--:|"
+    );
+    simulated.iter().for_each(|line| println!("{line}"));
     own_scores(&arguments, &dataset, &mut templates)
 }
 
@@ -193,28 +214,10 @@ fn error_line(name: &str, scored: &[Scored]) -> String {
 }
 
 fn threshold_lines(name: &str, scored: &[Scored]) -> Result<Vec<String>, Box<dyn Error>> {
-    let of_half = |half: &[u32]| -> Vec<Labelled> {
-        known(scored, CONFIDENCE)
-            .filter(|(object, ..)| half.contains(object))
-            .map(|(_, labelled, _)| labelled)
-            .collect()
-    };
-    let aim = Aim {
-        false_accepts: FALSE_ACCEPTS,
-        rejected_right: FALSE_ACCEPTS,
-    };
     let mut lines = Vec::new();
     for (found_on, tried_on) in [(0, 1), (1, 0)] {
-        let found = calibrate(&of_half(&HALVES[found_on]), aim)?;
-        let others = of_half(&HALVES[tried_on]);
-        let accepted = |right: bool| {
-            let of_kind = others.iter().filter(|labelled| labelled.right == right);
-            let accepted = of_kind.clone().filter(|l| l.confidence >= found.accept);
-            Rate {
-                count: accepted.count(),
-                total: of_kind.count(),
-            }
-        };
+        let found = calibrate(&of_objects(scored, &HALVES[found_on]), AIM)?;
+        let others = of_objects(scored, &HALVES[tried_on]);
         lines.push(format!(
             "| {name} | {} | {:.3} | {} | {:.1} % | {} | {} | {:.1} % |",
             listed(&HALVES[found_on]),
@@ -222,11 +225,75 @@ fn threshold_lines(name: &str, scored: &[Scored]) -> Result<Vec<String>, Box<dyn
             rate(found.false_accepts),
             100.0 * found.true_accepts.share(),
             listed(&HALVES[tried_on]),
-            rate(accepted(false)),
-            100.0 * accepted(true).share(),
+            rate(accepted(&others, found.accept, false)),
+            100.0 * accepted(&others, found.accept, true).share(),
         ));
     }
     Ok(lines)
+}
+
+/// What thresholds that were found on simulated estimates of each object do on `scored`, and of all objects
+/// together.
+fn simulated_lines<S: Surface + Sync>(
+    (name, masked): (&str, bool),
+    scored: &[Scored],
+    surfaces: &Surfaces<S>,
+    seed: u64,
+) -> Result<Vec<String>, Box<dyn Error>> {
+    let mut lines = Vec::new();
+    let mut all = [Rate { count: 0, total: 0 }; 2];
+    for (object, checked) in surfaces {
+        let checked = checked.as_ref().map_err(ToString::to_string)?;
+        let simulation = Simulation {
+            estimates: SIMULATED,
+            noise: NOISE,
+            masked,
+            symmetric: SYMMETRIC.contains(object),
+            seed,
+        };
+        let found = simulate(&checked.surface, None, &checked.settings, &simulation)?;
+        let judged = found
+            .iter()
+            .filter(|one| one.valid_pixels >= checked.settings.minimum_points);
+        let labelled: Vec<Labelled> = judged.map(|one| one.labelled).collect();
+        let accept = calibrate(&labelled, AIM)?.accept;
+        let own = of_objects(scored, &[*object]);
+        let rates = [false, true].map(|right| accepted(&own, accept, right));
+        for (sum, one) in all.iter_mut().zip(rates) {
+            sum.count += one.count;
+            sum.total += one.total;
+        }
+        lines.push(simulated_line(
+            name,
+            &[&object.to_string(), &format!("{accept:.3}")],
+            rates,
+        ));
+    }
+    lines.push(simulated_line(name, &["all", ""], all));
+    Ok(lines)
+}
+
+fn simulated_line(name: &str, words: &[&str; 2], [wrong, right]: [Rate; 2]) -> String {
+    let words = words.join(" | ");
+    let right = 100.0 * right.share();
+    format!("| {name} | {words} | {} | {right:.1} % |", rate(wrong))
+}
+
+fn of_objects(scored: &[Scored], objects: &[u32]) -> Vec<Labelled> {
+    known(scored, CONFIDENCE)
+        .filter(|(object, ..)| objects.contains(object))
+        .map(|(_, labelled, _)| labelled)
+        .collect()
+}
+
+/// The share of the right or of the wrong ones that reach a threshold.
+fn accepted(labelled: &[Labelled], threshold: f32, right: bool) -> Rate {
+    let of_kind = labelled.iter().filter(|labelled| labelled.right == right);
+    let accepted = of_kind.clone().filter(|one| one.confidence >= threshold);
+    Rate {
+        count: accepted.count(),
+        total: of_kind.count(),
+    }
 }
 
 /// A share with Wilson's interval, in percent.

@@ -4,6 +4,7 @@ mod ambiguity;
 mod auto;
 mod bop;
 mod calibrate;
+mod calibrate_simulated;
 mod camera_input;
 mod demo;
 mod eval;

@@ -44,3 +44,34 @@ pub fn roc_svg(roc: &Roc, thresholds: &Thresholds) -> Result<String, PlotError> 
         threshold(chart, at, (place, HPos::Left), lines)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::calibrate::{Aim, Labelled, calibrate};
+
+    /// The roc of `count` wrong estimates from 0 to 0.5 and as many right ones from 0.4 to 0.9.
+    fn drawn(count: u32, false_accepts: f64) -> String {
+        let confidences = |from: f32, right| {
+            (0..count).map(move |i| Labelled {
+                confidence: from + 0.5 * i as f32 / count as f32,
+                right,
+            })
+        };
+        let labelled: Vec<_> = confidences(0.0, false)
+            .chain(confidences(0.4, true))
+            .collect();
+        let aim = Aim {
+            false_accepts,
+            rejected_right: false_accepts,
+        };
+        let thresholds = calibrate(&labelled, aim).unwrap();
+        roc_svg(&Roc::new(&labelled).unwrap(), &thresholds).unwrap()
+    }
+
+    #[test]
+    fn a_small_rate_is_enlarged_and_a_large_one_shows_as_it_is() {
+        assert!(drawn(1000, 0.01).contains("enlarged"));
+        assert!(!drawn(100, 0.05).contains("enlarged"));
+    }
+}

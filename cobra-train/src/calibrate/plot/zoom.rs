@@ -21,8 +21,7 @@ const HEADING: f64 = 0.05;
 const MARGIN: f64 = 0.1;
 
 /// Draws the curve up to some ten times the rate at the threshold, with the rate's interval as a band;
-/// nothing where the curve
-/// itself is in the way, or shows as much.
+/// nothing where the curve itself is in the way, or shows as much.
 pub(super) fn zoom(
     chart: &mut Chart<'_, '_>,
     points: &[(f64, f64)],

@@ -37,24 +37,34 @@ pub(crate) struct CalibrateArguments {
 
     /// With --simulate: what the camera sees, in the template's unit [default: the template's own surface,
     /// which then has no error]
-    #[arg(long, value_name = "MESH", requires = "simulate")]
+    #[arg(
+        long,
+        value_name = "MESH",
+        requires = "simulate",
+        conflicts_with = "labelled"
+    )]
     pub(crate) mesh: Option<PathBuf>,
 
     /// With --simulate: which pixels show the object: those that a mask says, or those in which the estimate
     /// itself says that it is seen
-    #[arg(long, value_enum, default_value_t = MasksArgument::Silhouette, requires = "simulate")]
+    #[arg(long, value_enum, default_value_t = MasksArgument::Silhouette, requires = "simulate", conflicts_with = "labelled")]
     pub(crate) masks: MasksArgument,
 
     /// With --simulate: standard deviation of the depth, in mm [default: 1.5]
-    #[arg(long, value_name = "MM", value_parser = crate::cli::choices::not_negative, requires = "simulate")]
+    #[arg(long, value_name = "MM", value_parser = crate::cli::choices::not_negative, requires = "simulate", conflicts_with = "labelled")]
     pub(crate) depth_noise: Option<f32>,
 
     /// With --simulate: judge estimates by ADD-S, of an object that looks the same from several sides
-    #[arg(long, requires = "simulate")]
+    #[arg(long, requires = "simulate", conflicts_with = "labelled")]
     pub(crate) symmetric: bool,
 
     /// With --simulate: seed of all randomness
-    #[arg(long, default_value_t = 0, requires = "simulate")]
+    #[arg(
+        long,
+        default_value_t = 0,
+        requires = "simulate",
+        conflicts_with = "labelled"
+    )]
     pub(crate) seed: u64,
 
     /// Share of the wrong estimates that may be accepted, above 0 and below 1

@@ -58,11 +58,12 @@ pub(super) fn evidence(
         let estimates = plural(too_few_pixels, "estimate");
         terminal.say(&format!("{estimates} with too few valid pixels left out"));
     }
-    let words = [
-        "simulated",
-        if mesh.is_some() { "mesh" } else { "template" },
-        if masked { "mask" } else { "silhouette" },
-    ];
+    let seen = if mesh.is_some() {
+        "mesh"
+    } else {
+        "own surface"
+    };
+    let pixels = if masked { "mask" } else { "silhouette" };
     Ok(Evidence {
         labelled,
         left_out: LeftOut {
@@ -72,7 +73,7 @@ pub(super) fn evidence(
         source: CalibrationSource::Simulated,
         provenance: match asked_provenance(arguments)? {
             Some(text) => text,
-            None => shortened(format!("{}, {sensor} mm", words.join(", "))),
+            None => shortened(format!("{seen}, {pixels}, {sensor} mm")),
         },
     })
 }
