@@ -16,7 +16,6 @@ use cobra_infer::depth::{
     Cell, Correction, DepthCheck, DepthPixel, DepthReport, DepthSettings, DepthWords, Observed,
     TemplateSurface,
 };
-use cobra_infer::nalgebra::Point3;
 use cobra_infer::{Camera, Pose, Template};
 use core::ffi::c_void;
 
@@ -163,10 +162,7 @@ fn run(
     seen: &Seen<'_>,
     cells: &mut [Cell],
 ) -> Result<DepthReport, CobraStatus> {
-    let [x, y, z] = template.centre();
-    let depth = pose.to_camera(&Point3::new(x, y, z)).z;
-    let noise = settings.noise.at(template.diameter(), depth)?;
-    let surface = TemplateSurface::<MAX_COMPONENTS>::new(template, noise);
+    let surface = TemplateSurface::<MAX_COMPONENTS>::at_pose(template, settings, pose);
     // Used inside its result: moved out, it would lie on the stack twice.
     let surface = match &surface {
         Ok(surface) => surface,

@@ -65,8 +65,8 @@ impl Surface for MeshSurface {
     }
 
     /// Always the same points, whatever the spacing: as close as the finest depth buffer asks for.
-    fn sample(&self, _: f32, take: &mut impl FnMut(&Point3<f32>)) {
-        self.points.iter().for_each(take);
+    fn sample(&self, _: f32, take: &mut impl FnMut(Option<&Point3<f32>>)) {
+        self.points.iter().map(Some).for_each(take);
     }
 }
 

@@ -77,7 +77,7 @@ pub fn simulate<S: Surface + Sync>(
 ) -> Result<Vec<SimulatedEstimate>, DepthError> {
     let mut points = Vec::new();
     surface.sample(POINT_SPACING * surface.radius(), &mut |point| {
-        points.push(point.cast::<f64>());
+        points.extend(point.map(|point| point.cast::<f64>()));
     });
     let points = ModelPoints::new(points);
     let model = mesh.map(crate::bop::render::RenderModel::new);
