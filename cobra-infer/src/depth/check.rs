@@ -16,6 +16,7 @@ use crate::camera::Camera;
 use crate::math::Real;
 use crate::pose::Pose;
 use crate::template::Template;
+use crate::trace;
 use nalgebra::Point3;
 
 /// Points of the surface lie this share of a cell of the depth buffer apart at the object's middle, and up to a
@@ -81,6 +82,7 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         let mut report = DepthReport::behind_camera(pose, noise);
         let Some(buffer) = self.depth_buffer(pose, cells, pulse)? else {
             report.depth_ratio = self.depth_ratio(pose, observed, pulse);
+            trace::pose_checked(&report);
             return Ok(report);
         };
         let mut evidence = Evidence::default();
@@ -100,6 +102,7 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         };
         self.refine(pose, &pixels, &mut report, pulse);
         report.conclude(&self.settings);
+        trace::pose_checked(&report);
         Ok(report)
     }
 
