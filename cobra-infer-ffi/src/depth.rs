@@ -20,7 +20,8 @@ use cobra_infer::{Camera, Pose, Template};
 use core::ffi::c_void;
 
 /// What the template knows: its measurement noise, and its thresholds where it was calibrated. The
-/// rest: a depth buffer of 32 by 32 cells, four steps on 150 pixels, at least 10 points.
+/// rest: a depth buffer of 32 by 32 cells, four steps on at most 150 pixels; at least 10 points, or as many
+/// as it was calibrated with.
 ///
 /// # Safety
 /// `template` was loaded and its bytes are still there; `out` points to a CobraDepthSettings.
