@@ -162,6 +162,9 @@ impl Layer {
                 }
             }
         }
+        if !masked {
+            layer.close(2.0 * radius);
+        }
         layer
     }
 
