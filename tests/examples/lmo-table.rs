@@ -167,7 +167,7 @@ fn run<S: Surface + Sync + Send>(
 fn known(scored: &[Scored], of: Score) -> impl Iterator<Item = (u32, Labelled, f64)> + '_ {
     scored.iter().filter_map(move |row| {
         let outcome = row.outcome.as_ref().ok()?;
-        let truth = row.truth.as_ref()?;
+        let truth = row.known_truth()?;
         let errors = truth.errors()?;
         let labelled = Labelled {
             confidence: of(&outcome.report),

@@ -121,7 +121,7 @@ fn on_the_real_frame_the_truth_scores_above_every_wrong_estimate() {
             .iter()
             .filter(|e| e.estimate.unwrap().obj_id == object)
         {
-            let errors = *estimate.truth.unwrap().errors().unwrap();
+            let errors = *estimate.known_truth().unwrap().errors().unwrap();
             if errors.add_s > 0.1 * errors.diameter {
                 wrong += 1;
                 let (right, wrong) = (confidence(truth), confidence(estimate));

@@ -98,9 +98,21 @@ impl Models {
     pub fn info(&self, object: u32) -> Result<ModelInfo, DatasetError> {
         let Some(info) = &self.info else {
             let missing = std::io::ErrorKind::NotFound.into();
-            return Err(DatasetError::io(&self.folder.join(INFO), missing));
+            return Err(DatasetError::io(&self.info_path(), missing));
         };
         info_of(info, object)
+    }
+
+    /// Whether there is a `models_info.json`, in the folder or where another counts for it.
+    #[must_use]
+    pub fn has_info(&self) -> bool {
+        self.info.is_some()
+    }
+
+    /// The folder's own `models_info.json`, whether or not it is there.
+    #[must_use]
+    pub fn info_path(&self) -> PathBuf {
+        self.folder.join(INFO)
     }
 }
 

@@ -42,6 +42,8 @@ struct EstimateDocument {
     score: Option<ScoreDocument>,
     #[serde(skip_serializing_if = "Option::is_none")]
     truth: Option<TruthDocument>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    truth_problem: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -136,7 +138,8 @@ fn estimate(scored: &Scored) -> EstimateDocument {
         valid_pixels: outcome.map_or(0, Outcome::valid_pixels),
         problem: scored.outcome.as_ref().err().map(ToString::to_string),
         score: outcome.map(score),
-        truth: scored.truth.as_ref().map(truth),
+        truth: scored.known_truth().map(truth),
+        truth_problem: scored.truth.as_ref().err().map(ToString::to_string),
     }
 }
 

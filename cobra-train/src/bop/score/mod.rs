@@ -15,7 +15,7 @@ pub use problem::Problem;
 pub use summary::Summary;
 pub use truth::{Errors, Truth};
 
-use super::dataset::Dataset;
+use super::dataset::{Dataset, DatasetError};
 use super::results::{PoseEstimate, Results};
 use super::templates::TemplateFileError;
 use crate::progress::Progress;
@@ -82,8 +82,17 @@ pub struct Scored {
     pub estimate: Option<PoseEstimate>,
     /// The score, or why there is none.
     pub outcome: Result<Outcome, Problem>,
+    /// How far the estimate is from the truth; `None` where that is not published or the row is no pose, and
+    /// otherwise why it is not known.
+    pub truth: Result<Option<Truth>, Arc<DatasetError>>,
+}
+
+impl Scored {
     /// How far the estimate is from the truth, where that is known.
-    pub truth: Option<Truth>,
+    #[must_use]
+    pub fn known_truth(&self) -> Option<&Truth> {
+        self.truth.as_ref().ok()?.as_ref()
+    }
 }
 
 /// A score.
@@ -145,12 +154,19 @@ pub fn score_results<S: Surface + Sync + Send>(
                 line: content.line,
                 estimate: None,
                 outcome: Err(Problem::Row(error.clone())),
-                truth: None,
+                truth: Ok(None),
             }),
         }
     }
     let frames = Frames::new(dataset, images.keys().map(|(scene, _)| *scene), options);
     let judge = Judge::new(dataset, surfaces.keys().copied());
+    if let Some(info) = judge.missing_info().filter(|_| frames.have_truth()) {
+        progress.warn(&format!(
+            "{}: expected diameters and symmetries of the objects, found no such file: diameters are the \
+             models' own, and errors those of objects without symmetries",
+            info.display()
+        ));
+    }
     progress.start("scoring images", images.len() as u64);
     let judged: Vec<Vec<Scored>> = images
         .into_par_iter()

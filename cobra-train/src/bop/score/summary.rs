@@ -48,7 +48,7 @@ impl Summary {
                 Decision::Reject(_) => 1,
                 Decision::Undecided(_) => 2,
             }] += 1;
-            if let (Some(truth), Some(estimate)) = (&row.truth, &row.estimate) {
+            if let (Some(truth), Some(estimate)) = (row.known_truth(), &row.estimate) {
                 known.push((outcome, truth, estimate.score));
             }
         }

@@ -58,7 +58,8 @@ pub(crate) struct BopTrainArguments {
                   it as it is; -1 stands where an estimate could not be scored. Rows that are no estimates \
                   are left out.\n\nSimulated depth is rendered from all annotated objects of an image at their \
                   true poses; where no object is rendered the depth counts as measured and far.\n\nExit code 3 \
-                  says that some rows could not be scored; the others were.\n\nExamples:\n  cobra bop score \
+                  says that some rows could not be scored, or that the truth of some is there and cannot be \
+                  used; the others were.\n\nExamples:\n  cobra bop score \
                   --dataset lmo --split test --results gdrnpp_lmo-test.csv --templates templates -o \
                   rescored.csv\n  cobra bop score --dataset lmo --split test --results gdrnpp_lmo-test.csv \
                   --templates templates --depth simulated --masks simulated -o rescored.csv --report \

@@ -46,7 +46,7 @@ pub(super) fn run(arguments: &BopScoreArguments, terminal: &Terminal) -> Result<
     let mut templates = TemplateFolder::read(&arguments.templates, objects);
     let scored = templates
         .with_surfaces(|surfaces| score_results(&dataset, &results, surfaces, &options, terminal));
-    let failed = tell(&scored, &arguments.results, terminal);
+    let missing = tell(&scored, &arguments.results, terminal);
 
     let confidence = |row: usize| {
         let outcome = scored.get(row)?.outcome.as_ref().ok()?;
@@ -69,14 +69,7 @@ pub(super) fn run(arguments: &BopScoreArguments, terminal: &Terminal) -> Result<
     if !json.replaces_the_table() {
         terminal.print(&summary::text(&scored))?;
     }
-    if failed > 0 {
-        return Err(Failure::BadInput(format!(
-            "{}: {failed} of {} rows were not scored",
-            arguments.results.display(),
-            scored.len()
-        )));
-    }
-    Ok(())
+    missing.failure(&arguments.results, scored.len())
 }
 
 fn options(arguments: &BopScoreArguments, results: &Results) -> ScoreOptions {
@@ -111,31 +104,92 @@ fn own_masks(arguments: &BopScoreArguments, results: &Results) -> Option<Masks> 
     masks.is_dir().then_some(Masks::Folder(split))
 }
 
-/// Says what was not scored, and why: each row that is wrong itself, and once what several rows share.
-/// Returns how many rows there are of both.
-fn tell(scored: &[Scored], file: &Path, terminal: &Terminal) -> usize {
-    let mut shared: Vec<(String, usize, u64)> = Vec::new();
-    let mut failed = 0;
-    for row in scored {
-        let Err(problem) = &row.outcome else {
-            continue;
+/// How many rows something was not done for.
+struct Missing {
+    scores: usize,
+    truths: usize,
+}
+
+impl Missing {
+    fn failure(&self, file: &Path, rows: usize) -> Result<(), Failure> {
+        let words = match (self.scores, self.truths) {
+            (0, 0) => return Ok(()),
+            (scores, 0) => format!("{scores} of {rows} rows were not scored"),
+            (0, truths) => format!("the truth of {truths} of {rows} rows is not known"),
+            (scores, truths) => format!(
+                "{scores} of {rows} rows were not scored, the truth of {truths} others is not known"
+            ),
         };
-        failed += 1;
-        let text = problem.to_string();
-        if !problem.is_shared() {
-            terminal.warn(&format!("{}: line {}: {text}", file.display(), row.line));
-        } else if let Some(known) = shared.iter_mut().find(|(known, ..)| *known == text) {
-            known.1 += 1;
-        } else {
-            shared.push((text, 1, row.line));
+        Err(Failure::BadInput(format!("{}: {words}", file.display())))
+    }
+}
+
+/// Says what was not scored or has no truth, and why: each row that is wrong itself, and once what several rows
+/// share. Of a row that was not scored the truth does not matter.
+fn tell(scored: &[Scored], file: &Path, terminal: &Terminal) -> Missing {
+    let mut shared = Shared::default();
+    let mut missing = Missing {
+        scores: 0,
+        truths: 0,
+    };
+    for row in scored {
+        match (&row.outcome, &row.truth) {
+            (Err(problem), _) => {
+                missing.scores += 1;
+                if problem.is_shared() {
+                    shared.add(problem.to_string(), "not scored", row.line);
+                } else {
+                    let file = file.display();
+                    terminal.warn(&format!("{file}: line {}: {problem}", row.line));
+                }
+            }
+            (Ok(_), Err(problem)) => {
+                missing.truths += 1;
+                shared.add(problem.to_string(), "without truth", row.line);
+            }
+            (Ok(_), Ok(_)) => {}
         }
     }
-    for (text, count, line) in shared {
-        let rows = match count {
-            1 => format!("line {line}"),
-            _ => format!("{count} rows, the first in line {line}"),
-        };
-        terminal.warn(&format!("{text} ({} not scored: {rows})", file.display()));
+    shared.tell(file, terminal);
+    missing
+}
+
+/// What several rows share, in the order in which it was met.
+#[derive(Default)]
+struct Shared(Vec<SharedProblem>);
+
+struct SharedProblem {
+    text: String,
+    consequence: &'static str,
+    rows: usize,
+    first_line: u64,
+}
+
+impl Shared {
+    fn add(&mut self, text: String, consequence: &'static str, line: u64) {
+        let known = |one: &&mut SharedProblem| one.text == text && one.consequence == consequence;
+        match self.0.iter_mut().find(known) {
+            Some(known) => known.rows += 1,
+            None => self.0.push(SharedProblem {
+                text,
+                consequence,
+                rows: 1,
+                first_line: line,
+            }),
+        }
     }
-    failed
+
+    fn tell(&self, file: &Path, terminal: &Terminal) {
+        let file = file.display();
+        for one in &self.0 {
+            let rows = match one.rows {
+                1 => format!("line {}", one.first_line),
+                count => format!("{count} rows, the first in line {}", one.first_line),
+            };
+            terminal.warn(&format!(
+                "{} ({file} {}: {rows})",
+                one.text, one.consequence
+            ));
+        }
+    }
 }
