@@ -36,7 +36,7 @@ fn an_object_without_a_template_is_named_once() {
         "results.csv",
         results(&[row(3, 1, TRUTH), row(3, 7, TRUTH), row(4, 7, TRUTH)]),
     );
-    let said = ["t/obj_000007.cobra: No such file or directory (os error 2)"];
+    let said = ["t: expected obj_000007.cobra for poses of object 7, found templates of 1 ("];
     scores_the_rest(&scene, &simulated(&[]), &said, 1);
 }
 

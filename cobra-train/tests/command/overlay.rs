@@ -107,7 +107,10 @@ fn what_does_not_fit_is_one_line_that_names_the_file() {
         (
             format!("{BOP} --row 3"),
             3,
-            ["results.csv: line 3: ", "obj_000007.cobra: No such file"],
+            [
+                "results.csv: line 3: ",
+                "templates: expected obj_000007.cobra",
+            ],
         ),
         (
             format!("{BOP} --scene 2 --image 3 --object 5"),
