@@ -10,6 +10,6 @@ mod residual;
 mod sampled;
 
 pub use mesh::MeshSurface;
-pub use pixels::{observed, spread};
+pub use pixels::{observed, spread, valid_pixels};
 pub use residual::ResidualMap;
 pub use sampled::SampledSurface;

@@ -13,6 +13,7 @@
 mod scene;
 
 use crate::calibrate::Labelled;
+use crate::depth::valid_pixels;
 use crate::pose::{ModelPoints, add, add_s, disturb};
 use crate::random::{Purpose, stream};
 use crate::surface::Mesh;
@@ -113,7 +114,7 @@ pub fn simulate<S: Surface + Sync>(
                             confidence: report.confidence,
                             right: error < RIGHT * f64::from(surface.diameter()),
                         },
-                        valid_pixels: report.pixels.min(report.judged),
+                        valid_pixels: valid_pixels(&report),
                         error,
                     })
                 })

@@ -1,6 +1,8 @@
 //! One simulated scene: the object, what it stands before and behind, and the depth that a camera sees.
 
 use crate::bop::render::{PlacedModel, RenderModel, render};
+use crate::bop::score::ScoreOptions;
+use crate::depth::spread;
 use crate::depth_image::DepthImage;
 use crate::input::ImageSize;
 use crate::random::normal;
@@ -120,8 +122,7 @@ impl Scene {
                 })
             })
             .collect();
-        let count = all.len().min(crate::bop::score::ScoreOptions::PIXELS);
-        (0..count).map(|i| all[i * all.len() / count]).collect()
+        spread(&all, ScoreOptions::PIXELS)
     }
 }
 

@@ -44,6 +44,7 @@ fn the_report_says_every_number_and_the_truth() {
     assert_eq!(right["row"], 2);
     assert_eq!(right["truth"]["right"], true);
     assert!(right["valid_pixels"].as_u64().unwrap() > 50);
+    assert_eq!(right["minimum_points"], 10);
     assert_eq!(behind["truth"]["right"], false);
     for key in ["add_mm", "mssd_mm", "mssd_without_symmetries_mm"] {
         assert!((behind["truth"][key].as_f64().unwrap() - 40.0).abs() < 1e-9);
@@ -54,6 +55,7 @@ fn the_report_says_every_number_and_the_truth() {
     let cause = |estimate: &Value| estimate["cause"].as_str().unwrap().to_owned();
     assert!(cause(right).contains("fits"), "{right}");
     assert!(cause(behind).contains("offset along the ray"), "{behind}");
+    assert!(cause(behind).ends_with(" mm"), "{behind}");
     assert!(!cause(beside).contains("fits"), "{beside}");
     assert_eq!(beside["decision"], "reject");
     assert_eq!(right["decision"], "undecided");

@@ -18,6 +18,7 @@ pub use truth::{Errors, Truth};
 use super::dataset::{Dataset, DatasetError};
 use super::results::{PoseEstimate, Results};
 use super::templates::TemplateFileError;
+use crate::depth::valid_pixels;
 use crate::progress::Progress;
 use cobra_infer::depth::{
     Cause, Cell, Correction, DepthCheck, DepthReport, DepthSettings, Observed, Surface,
@@ -104,16 +105,17 @@ pub struct Outcome {
     pub correction: Correction,
     /// Why it fits as it does.
     pub cause: Cause,
+    /// With fewer valid pixels the confidence would be 0, [`DepthSettings::minimum_points`].
+    pub minimum_points: u32,
     /// Whether a mask said which pixels show the object, rather than the estimate's own silhouette.
     pub masked: bool,
 }
 
 impl Outcome {
-    /// On how many pixels or points of the surface it rests, whichever are fewer: what
-    /// [`DepthSettings::minimum_points`] is compared with.
+    /// [`valid_pixels`] of the report.
     #[must_use]
     pub fn valid_pixels(&self) -> u32 {
-        self.report.pixels.min(self.report.judged)
+        valid_pixels(&self.report)
     }
 }
 
@@ -228,6 +230,7 @@ fn score_one<S: Surface>(
         report,
         correction,
         cause: report.cause(&correction),
+        minimum_points: settings.minimum_points,
         masked: pixels.is_some(),
     })
 }
