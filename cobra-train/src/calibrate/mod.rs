@@ -18,16 +18,17 @@ pub use plot::{PlotError, precision_recall_svg, reliability_svg, roc_svg};
 pub use precision_recall::{PrecisionRecall, PrecisionRecallPoint};
 pub use rate::{Interval, Rate, percent};
 pub use reliability::{Bin, reliability};
-pub use roc::{Roc, RocPoint};
+pub use roc::{Roc, RocPoint, area_under_roc};
 pub use thresholds::{Aim, Thresholds, calibrate};
 
 use sweep::sweep;
 
-/// The confidence of an estimate of which somebody knows whether it is right.
+/// The confidence of an estimate of which somebody knows whether it is right, or as an `f64` another score of
+/// its.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Labelled {
-    /// Its confidence, from 0 to 1.
-    pub confidence: f32,
+pub struct Labelled<C = f32> {
+    /// Its confidence, from 0 to 1; the larger a score, the better.
+    pub confidence: C,
     /// Whether it is right.
     pub right: bool,
 }

@@ -7,7 +7,7 @@ mod model_points;
 mod nearest;
 mod simulate;
 
-pub use error::{add, add_s, mspd, mssd};
+pub use error::{RIGHT, add, add_s, mspd, mssd};
 pub use model_points::ModelPoints;
 pub use nearest::nearest_pose;
 pub use simulate::{ObservationNoise, disturb, observe};

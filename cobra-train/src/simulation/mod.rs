@@ -14,7 +14,7 @@ mod scene;
 
 use crate::calibrate::Labelled;
 use crate::depth::valid_pixels;
-use crate::pose::{ModelPoints, add, add_s, disturb};
+use crate::pose::{ModelPoints, RIGHT, add, add_s, disturb};
 use crate::random::{Purpose, stream};
 use crate::surface::Mesh;
 use cobra_infer::depth::{Cell, DepthCheck, DepthError, DepthSettings, Observed, Surface};
@@ -29,9 +29,6 @@ const ESTIMATES_PER_SCENE: usize = 5;
 /// Sizes of errors, in diameters.
 const SMALLEST_ERROR: f64 = 0.01;
 const LARGEST_ERROR: f64 = 1.0;
-
-/// Right is what is off by less than this share of the diameter, as for [`crate::bop::score::Errors`].
-const RIGHT: f64 = crate::bop::score::Errors::RIGHT;
 
 /// Points that errors are measured on lie this share of the object's radius apart.
 const POINT_SPACING: f32 = 0.1;

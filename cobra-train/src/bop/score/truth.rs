@@ -4,7 +4,7 @@ use super::frame::Frames;
 use crate::bop::dataset::{Dataset, DatasetError, ModelInfo, Models};
 use crate::bop::results::PoseEstimate;
 use crate::bop::symmetry::{LARGEST_STEP, Symmetries};
-use crate::pose::{ModelPoints, add, add_s, mspd, mssd};
+use crate::pose::{ModelPoints, RIGHT, add, add_s, mspd, mssd};
 use nalgebra::Isometry3;
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
@@ -59,19 +59,16 @@ impl Truth {
 }
 
 impl Errors {
-    /// Right is what is off by less than this share of the diameter.
-    pub const RIGHT: f64 = 0.1;
-
     /// What the estimate is judged by: ADD-S of symmetric objects, ADD of others.
     #[must_use]
     pub fn error(&self) -> f64 {
         if self.symmetric { self.add_s } else { self.add }
     }
 
-    /// Whether [`Errors::error`] is less than [`Errors::RIGHT`] times the diameter.
+    /// Whether [`Errors::error`] is less than [`RIGHT`] times the diameter.
     #[must_use]
     pub fn is_right(&self) -> bool {
-        self.error() < Self::RIGHT * self.diameter
+        self.error() < RIGHT * self.diameter
     }
 }
 
