@@ -1,5 +1,6 @@
 //! Shares that were counted, and what they say of the share behind them.
 
+use super::Labelled;
 use cobra_infer::template::MeasuredShare;
 use std::fmt;
 
@@ -52,6 +53,17 @@ pub fn percent(share: f64) -> f64 {
 }
 
 impl Rate {
+    /// Of the right or of the wrong ones among `labelled` those that reach a threshold.
+    #[must_use]
+    pub fn of_accepted(labelled: &[Labelled], threshold: f32, right: bool) -> Self {
+        let of_kind = labelled.iter().filter(|one| one.right == right);
+        let accepted = of_kind.clone().filter(|one| one.confidence >= threshold);
+        Self {
+            count: accepted.count(),
+            total: of_kind.count(),
+        }
+    }
+
     /// count/total; 0 of none.
     #[must_use]
     pub fn share(self) -> f64 {
@@ -156,6 +168,18 @@ mod tests {
         assert_eq!(format!("{rate:.1}"), "1.0 %");
         assert_eq!(rate.interval().to_string(), "0.47 to 1.99 %");
         assert_eq!(format!("{:.0}", rate.interval()), "0 to 2 %");
+    }
+
+    #[test]
+    fn what_reaches_a_threshold_is_counted_of_each_kind() {
+        let labelled = [(0.5, true), (0.4, true), (0.5, false), (0.6, false)];
+        let labelled = labelled.map(|(confidence, right)| Labelled { confidence, right });
+        let counts = [true, false].map(|right| Rate::of_accepted(&labelled, 0.5, right).count);
+        assert_eq!(counts, [1, 2]);
+        assert_eq!(
+            Rate::of_accepted(&labelled, 0.7, true),
+            Rate { count: 0, total: 2 }
+        );
     }
 
     #[test]

@@ -7,6 +7,8 @@ mod document;
 mod frame;
 mod problem;
 mod summary;
+#[cfg(test)]
+mod tests;
 mod truth;
 
 pub use document::ReportDocument;
@@ -18,6 +20,7 @@ pub use truth::{Errors, Truth};
 use super::dataset::{Dataset, DatasetError};
 use super::results::{PoseEstimate, Results};
 use super::templates::TemplateFileError;
+use crate::calibrate::Labelled;
 use crate::depth::valid_pixels;
 use crate::progress::Progress;
 use cobra_infer::depth::{
@@ -93,6 +96,19 @@ impl Scored {
     #[must_use]
     pub fn known_truth(&self) -> Option<&Truth> {
         self.truth.as_ref().ok()?.as_ref()
+    }
+
+    /// Its confidence and whether it is right, where that is known and a threshold decides: with fewer than
+    /// [`Outcome::minimum_points`] the answer is undecided, whatever the threshold.
+    #[must_use]
+    pub fn decided(&self) -> Option<Labelled> {
+        let outcome = self.outcome.as_ref().ok()?;
+        let enough = outcome.valid_pixels() >= outcome.minimum_points;
+        let right = self.known_truth()?.is_right();
+        enough.then_some(Labelled {
+            confidence: outcome.report.confidence,
+            right,
+        })
     }
 }
 
