@@ -140,14 +140,6 @@ pub(super) fn twist(
     2.0 * libm::atan2(along, real)
 }
 
-/// A pose in double precision as the scorer has it; what the scorer makes of a rotation always is one.
-pub(super) fn single(pose: &Isometry3<f64>) -> Option<Pose> {
-    let matrix = pose.rotation.to_rotation_matrix();
-    let rows = std::array::from_fn(|i| matrix[(i / 3, i % 3)] as f32);
-    let [x, y, z] = pose.translation.vector.into();
-    Pose::from_row_major_orthonormalised(rows, [x as f32, y as f32, z as f32]).ok()
-}
-
 /// A pose of the scorer in double precision.
 pub(super) fn double(pose: &Pose) -> Option<Isometry3<f64>> {
     let matrix = pose.rotation().matrix();

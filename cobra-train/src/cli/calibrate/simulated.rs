@@ -6,10 +6,10 @@ use crate::cli::failure::Failure;
 use crate::cli::report::plural;
 use crate::cli::terminal::Terminal;
 use cobra_infer::Template;
-use cobra_infer::depth::{DepthError, DepthSettings, TemplateSurface};
+use cobra_infer::depth::{DepthSettings, TemplateSurface};
 use cobra_infer::template::{CalibrationSource, DecodedTerm};
 use cobra_train::progress::Progress;
-use cobra_train::simulation::{Simulation, simulate};
+use cobra_train::simulation::{Simulation, SimulationError, simulate};
 use cobra_train::surface::read_mesh;
 use cobra_train::train::LARGEST_TEMPLATE;
 
@@ -22,8 +22,9 @@ pub(super) fn evidence(
     count: u32,
     terminal: &Terminal,
 ) -> Result<Evidence, Failure> {
-    let refuse =
-        |error: DepthError| Failure::BadInput(format!("{}: {error}", arguments.template.display()));
+    let refuse = |error: SimulationError| {
+        Failure::BadInput(format!("{}: {error}", arguments.template.display()))
+    };
     let mesh = arguments.mesh.as_deref().map(read_mesh).transpose()?;
     let mut room = vec![DecodedTerm::default(); template.decoded_len()];
     let decoded = template.decoded(&mut room);
@@ -35,8 +36,9 @@ pub(super) fn evidence(
     let noise = settings
         .noise
         .at(template.diameter(), 0.0)
-        .map_err(refuse)?;
-    let surface = TemplateSurface::<LARGEST_TEMPLATE>::new(template, noise).map_err(refuse)?;
+        .map_err(|error| refuse(error.into()))?;
+    let surface = TemplateSurface::<LARGEST_TEMPLATE>::new(template, noise)
+        .map_err(|error| refuse(error.into()))?;
     let sensor = arguments.depth_noise.unwrap_or(DEPTH_NOISE);
     let masked = arguments.masks == MasksArgument::Simulated;
     let simulation = Simulation {

@@ -3,7 +3,6 @@
 //! Owns which estimates are meant. What belongs to an image, and which pixels show what, is
 //! [`cobra_train::bop::score`]'s.
 
-use super::super::demo::to_pose;
 use super::super::failure::Failure;
 use super::super::terminal::Terminal;
 use super::arguments::{BopArguments, DepthArgument};
@@ -14,6 +13,7 @@ use cobra_train::bop::results::{Results, read_results};
 use cobra_train::bop::score::{DepthSource, Frames, Masks, ScoreOptions};
 use cobra_train::bop::templates::TemplateFile;
 use cobra_train::overlay::{OverlayEstimate, grey_depth};
+use cobra_train::pose::single_pose;
 use nalgebra::Point3;
 use std::path::Path;
 
@@ -190,7 +190,7 @@ fn wanted(
                 object: one.obj_id,
                 name: format!("object {}, true pose", one.obj_id),
                 place: format!("{}: {image}", path.display()),
-                pose: to_pose(&one.pose).map_err(|error| error.to_string()),
+                pose: single_pose(&one.pose).map_err(|error| error.to_string()),
             });
             (poses.collect(), path.display().to_string())
         }
