@@ -2,6 +2,7 @@
 
 use super::objects::{listed, objects_in};
 use super::score::{Checked, Surfaces};
+use crate::depth::template_surface;
 use crate::train::LARGEST_TEMPLATE;
 use cobra_infer::depth::{DepthError, DepthSettings, Noise, TemplateSurface};
 use cobra_infer::template::DecodedTerm;
@@ -179,12 +180,8 @@ fn surface<'t>(
     if let Some(share) = noise_share {
         settings.noise = Noise::Share(share);
     }
-    // The depth matters to a sensor's noise alone, and templates record a share.
-    let surface = settings
-        .noise
-        .at(template.diameter(), 0.0)
-        .and_then(|noise| TemplateSurface::new(template, noise))
-        .map_err(|source| TemplateFileError::Depth {
+    let surface =
+        template_surface(template, &settings).map_err(|source| TemplateFileError::Depth {
             path: path.to_owned(),
             source,
         })?;

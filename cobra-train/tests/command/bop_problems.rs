@@ -3,7 +3,7 @@
 use crate::bop_scene::{
     IDENTITY, TRUTH, dataset, png, results, row, scores_the_rest, set_cameras, simulated, words,
 };
-use crate::run::run;
+use crate::run::{refuse, run};
 use crate::scene::Scene;
 use serde_json::{Value, json};
 
@@ -208,4 +208,14 @@ fn scored(scene: &Scene) -> usize {
     let text = scene.read("out.csv");
     let scores = text.lines().skip(1).map(|line| line.split(',').nth(3));
     scores.filter(|score| *score != Some("-1")).count()
+}
+
+#[test]
+fn noise_on_measured_depth_is_refused() {
+    let scene = measured();
+    refuse(
+        scene.arguments(&words(&["--depth-noise", "2"])),
+        2,
+        &["--depth-noise goes with --depth simulated"],
+    );
 }

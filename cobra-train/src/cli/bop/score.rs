@@ -1,47 +1,44 @@
 //! `cobra bop score`: a results file with other scores.
 
-use super::arguments::{BopScoreArguments, DepthArgument};
+use super::arguments::BopScoreArguments;
 use super::summary;
 use crate::cli::failure::Failure;
 use crate::cli::outputs;
 use crate::cli::report::JsonTarget;
 use crate::cli::terminal::Terminal;
 use cobra_train::bop::dataset::Dataset;
-use cobra_train::bop::results::{Results, read_results};
-use cobra_train::bop::score::{
-    DepthSource, Masks, ReportDocument, ScoreOptions, Scored, score_results,
-};
+use cobra_train::bop::results::read_results;
+use cobra_train::bop::score::{DepthSource, ReportDocument, ScoreOptions, Scored, score_results};
 use cobra_train::bop::templates::TemplateFolder;
 use cobra_train::output::write_whole;
 use cobra_train::progress::Progress;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// The noise on simulated depth unless somebody says otherwise, in mm.
-const DEPTH_NOISE: f32 = 1.5;
-
 pub(super) fn run(arguments: &BopScoreArguments, terminal: &Terminal) -> Result<(), Failure> {
-    if arguments.depth == DepthArgument::Sensor && arguments.depth_noise.is_some() {
-        return Err(Failure::Usage(
-            "--depth-noise goes with --depth simulated: measured depth has its own".to_owned(),
-        ));
-    }
+    let depth = arguments.sources.depth()?;
     let mut written = vec![arguments.output.as_path()];
     written.extend(outputs::named_file(arguments.report.as_ref()));
     outputs::check(&[&arguments.results], &written)?;
     let results = read_results(&arguments.results)?;
     let dataset = Dataset::open(&arguments.dataset, &arguments.split)?;
-    let options = options(arguments, &results);
+    let estimates = results
+        .rows
+        .iter()
+        .filter_map(|row| row.estimate.as_ref().ok());
+    let first_scene = estimates.clone().next().map(|estimate| estimate.scene_id);
+    let options = ScoreOptions {
+        masks: arguments.sources.masks(&dataset, first_scene),
+        depth,
+        seed: arguments.sources.seed,
+        pixels: arguments.pixels as usize,
+    };
     if let DepthSource::Simulated { noise } = options.depth {
         terminal.say(&format!(
             "depth is simulated: all annotated objects at their true poses, {noise} mm of noise, far \
              elsewhere"
         ));
     }
-    let estimates = results
-        .rows
-        .iter()
-        .flat_map(|row| row.estimate.as_ref().ok());
     let objects: BTreeSet<u32> = estimates.map(|estimate| estimate.obj_id).collect();
     let mut templates = TemplateFolder::read(&arguments.templates, objects);
     let scored = templates
@@ -70,38 +67,6 @@ pub(super) fn run(arguments: &BopScoreArguments, terminal: &Terminal) -> Result<
         terminal.print(&summary::text(&scored))?;
     }
     missing.failure(&arguments.results, scored.len())
-}
-
-fn options(arguments: &BopScoreArguments, results: &Results) -> ScoreOptions {
-    ScoreOptions {
-        masks: match &arguments.masks {
-            Some(words) if words == Path::new("simulated") => Masks::Simulated,
-            Some(words) if words == Path::new("silhouette") => Masks::Silhouette,
-            Some(folder) => Masks::Folder(folder.clone()),
-            None => own_masks(arguments, results).unwrap_or(Masks::Silhouette),
-        },
-        depth: match arguments.depth {
-            DepthArgument::Sensor => DepthSource::Sensor,
-            DepthArgument::Simulated => DepthSource::Simulated {
-                noise: f64::from(arguments.depth_noise.unwrap_or(DEPTH_NOISE)),
-            },
-        },
-        seed: arguments.seed,
-        pixels: arguments.pixels as usize,
-    }
-}
-
-/// The data set's own masks, if it has some of the first scene of the results.
-fn own_masks(arguments: &BopScoreArguments, results: &Results) -> Option<Masks> {
-    let first = results
-        .rows
-        .iter()
-        .find_map(|row| row.estimate.as_ref().ok())?;
-    let split = arguments.dataset.join(&arguments.split);
-    let masks = split
-        .join(format!("{:06}", first.scene_id))
-        .join("mask_visib");
-    masks.is_dir().then_some(Masks::Folder(split))
 }
 
 /// How many rows something was not done for.

@@ -5,7 +5,7 @@
 
 use super::super::failure::Failure;
 use super::super::terminal::Terminal;
-use super::arguments::{BopArguments, DepthArgument};
+use super::arguments::BopArguments;
 use super::{Seen, Shown, estimate, file_name, skip};
 use cobra_infer::Pose;
 use cobra_train::bop::dataset::{Dataset, DatasetError, Scene};
@@ -31,6 +31,7 @@ pub(super) fn read(
     arguments: &BopArguments,
     terminal: &Terminal,
 ) -> Result<Shown, Failure> {
+    let depth = arguments.sources.depth()?;
     let dataset = Dataset::open(folder, &arguments.split)?;
     let results = match &arguments.results {
         Some(path) => Some((path.as_path(), read_results(path)?)),
@@ -39,19 +40,10 @@ pub(super) fn read(
     let (scene_id, image) = image_of(arguments, results.as_ref())?;
     let scene = dataset.scene(scene_id)?;
     let wanted = wanted(arguments, results.as_ref(), &scene, image)?;
-    let masks = arguments
-        .masks
-        .clone()
-        .unwrap_or_else(|| known_masks(&dataset, &scene));
     let options = ScoreOptions {
-        depth: match arguments.depth {
-            DepthArgument::Sensor => DepthSource::Sensor,
-            DepthArgument::Simulated => DepthSource::Simulated {
-                noise: arguments.depth_noise,
-            },
-        },
-        masks,
-        seed: arguments.seed,
+        masks: arguments.sources.masks(&dataset, Some(scene_id)),
+        depth,
+        seed: arguments.sources.seed,
         pixels: ScoreOptions::PIXELS,
     };
     let subtitle = subtitle(arguments, &options, scene_id, image);
@@ -210,15 +202,6 @@ fn wanted(
         )));
     }
     Ok(found)
-}
-
-/// The split's own masks, where the scene has some.
-fn known_masks(dataset: &Dataset, scene: &Scene) -> Masks {
-    if scene.folder().join("mask_visib").is_dir() {
-        Masks::Folder(dataset.split().to_owned())
-    } else {
-        Masks::Silhouette
-    }
 }
 
 fn subtitle(arguments: &BopArguments, options: &ScoreOptions, scene: u32, image: u32) -> String {
