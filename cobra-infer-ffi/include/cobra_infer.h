@@ -1017,8 +1017,8 @@ typedef struct CobraDepthObserved {
    */
   float scale;
   /**
-   * Called now and then, at least once every 64 pixels or points, with `context`: where a
-   * watchdog can be fed. NULL for nobody.
+   * Called with `context` at least once every 64 pixels, cells, or places where a point of the surface
+   * may be: where a watchdog can be fed. NULL for nobody.
    */
   void (*alive)(void*);
   /**
@@ -1276,7 +1276,8 @@ CobraStatus cobra_scorer_finish(const struct CobraScorer *scorer, struct CobraRe
 
 /**
  * What the template knows: its measurement noise, and its thresholds where it was calibrated. The
- * rest: a depth buffer of 32 by 32 cells, four steps on 150 pixels, at least 10 points.
+ * rest: a depth buffer of 32 by 32 cells, four steps on at most 150 pixels; at least 10 points, or as many
+ * as it was calibrated with.
  *
  * # Safety
  * `template` was loaded and its bytes are still there; `out` points to a CobraDepthSettings.

@@ -16,12 +16,12 @@ use cobra_infer::depth::{
     Cell, Correction, DepthCheck, DepthPixel, DepthReport, DepthSettings, DepthWords, Observed,
     TemplateSurface,
 };
-use cobra_infer::nalgebra::Point3;
 use cobra_infer::{Camera, Pose, Template};
 use core::ffi::c_void;
 
 /// What the template knows: its measurement noise, and its thresholds where it was calibrated. The
-/// rest: a depth buffer of 32 by 32 cells, four steps on 150 pixels, at least 10 points.
+/// rest: a depth buffer of 32 by 32 cells, four steps on at most 150 pixels; at least 10 points, or as many
+/// as it was calibrated with.
 ///
 /// # Safety
 /// `template` was loaded and its bytes are still there; `out` points to a CobraDepthSettings.
@@ -163,10 +163,7 @@ fn run(
     seen: &Seen<'_>,
     cells: &mut [Cell],
 ) -> Result<DepthReport, CobraStatus> {
-    let [x, y, z] = template.centre();
-    let depth = pose.to_camera(&Point3::new(x, y, z)).z;
-    let noise = settings.noise.at(template.diameter(), depth)?;
-    let surface = TemplateSurface::<MAX_COMPONENTS>::new(template, noise);
+    let surface = TemplateSurface::<MAX_COMPONENTS>::at_pose(template, settings, pose);
     // Used inside its result: moved out, it would lie on the stack twice.
     let surface = match &surface {
         Ok(surface) => surface,

@@ -89,8 +89,8 @@ pub struct CobraDepthObserved {
     pub height: u16,
     /// What a word is multiplied by to be in the template's unit, above 0.
     pub scale: f32,
-    /// Called now and then, at least once every 64 pixels or points, with `context`: where a
-    /// watchdog can be fed. NULL for nobody.
+    /// Called with `context` at least once every 64 pixels, cells, or places where a point of the surface
+    /// may be: where a watchdog can be fed. NULL for nobody.
     pub alive: Option<extern "C" fn(*mut c_void)>,
     /// What `alive` is called with.
     pub context: *mut c_void,

@@ -213,8 +213,9 @@ impl Tracker {
         })
     }
 
-    /// Takes in the next frame: its confidence, or `None` where there is no pose or the answer was
-    /// undecided. What is no number from 0 to 1 is no evidence either.
+    /// Takes in the next frame: its confidence, or `None` where there is no pose or too little was seen of
+    /// the object ([`crate::depth::DepthReport::evidence`]). What is no number from 0 to 1 is no evidence
+    /// either.
     pub fn update(&mut self, confidence: Option<f32>) -> TrackingState {
         match confidence.filter(|confidence| (0.0..=1.0).contains(confidence)) {
             None => self.miss(),

@@ -166,6 +166,21 @@ c_page() {
     }
 }
 
+# The second one, inside a function that has what it names.
+c_page_depth() {
+    {
+        echo '#include "cobra_infer.h"'
+        echo 'CobraDecision page(const CobraTemplate *object, const CobraDepthPixel *mask, size_t mask_size,'
+        echo '    const uint16_t *image, CobraCamera camera, CobraPose pose, void (*feed_watchdog)(void *));'
+        echo 'CobraDecision page(const CobraTemplate *object, const CobraDepthPixel *mask, size_t mask_size,'
+        echo '    const uint16_t *image, CobraCamera camera, CobraPose pose, void (*feed_watchdog)(void *)) {'
+        awk '/^```c$/ { block++; next } /^```$/ { if (block == 2) exit } block == 2' docs/C.md
+        echo 'return status == COBRA_STATUS_OK ? (CobraDecision)report.decision : COBRA_DECISION_UNDECIDED; }'
+    } >"$c_dir/page-depth.c"
+    # shellcheck disable=SC2086 # a list of words
+    cc $c_strict -c "$c_dir/page-depth.c" -o "$c_dir/page-depth.o"
+}
+
 c_panic_is_noticed() {
     c_library debug --features link-error-on-panic --config 'profile.release.opt-level=0' || return
     if c_needs_nothing debug 2>"$c_dir/link-errors"; then
@@ -203,6 +218,7 @@ part_c() {
     case $(uname -s) in
     Linux)
         c_check "the program of docs/C.md" c_page
+        c_check "the depth check of docs/C.md" c_page_depth
         for set in $(agreement_sets); do
             c_check "$set: Rust" c_rust "$set"
             c_check "$set: C on this machine runs" c_host "$set"

@@ -34,8 +34,10 @@ impl View {
         let pose = Pose::from_row_major([r0, r1, r2, r3, r4, r5, r6, r7, r8], [x, y, z])?;
         let surface = TemplateSurface::<64>::new(template, 1.0)?;
         let mut depths = vec![f32::INFINITY; self.width * self.height];
-        let mut splat = |point: &Point3<f32>| {
-            let seen = pose.to_camera(point);
+        let mut splat = |point: Option<&Point3<f32>>| {
+            let Some(seen) = point.map(|point| pose.to_camera(point)) else {
+                return;
+            };
             let Some(pixel) = camera.project(&seen) else {
                 return;
             };

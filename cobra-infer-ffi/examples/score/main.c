@@ -177,6 +177,7 @@ static CobraStatus check(CobraTemplate *loaded)
     CobraDepthObserved observed = {0};
     CobraStatus status;
     uint32_t width, pose_count, pixel_count, i;
+    const uint32_t room = sizeof mask / sizeof *mask;
     int masked;
 
     next = take(next, camera.matrix, sizeof camera.matrix);
@@ -186,8 +187,12 @@ static CobraStatus check(CobraTemplate *loaded)
     next = take(poses + pose_count * sizeof(CobraPose), &pixel_count, sizeof pixel_count);
     observed.words = image_start;
     observed.width = (uint16_t)width;
+    /* The scene is the program's own; a robot checks what comes from outside. */
+    if (width == 0 || pixel_count > room) {
+        return COBRA_STATUS_MEMORY_TOO_SMALL;
+    }
     observed.height = (uint16_t)((size_t)(image_end - image_start) / width);
-    for (i = 0; i < pixel_count && i < sizeof mask / sizeof *mask; i++) {
+    for (i = 0; i < pixel_count; i++) {
         next = take(next, &mask[i].column, sizeof mask[i].column);
         next = take(next, &mask[i].row, sizeof mask[i].row);
         mask[i].depth = (float)image_start[mask[i].row * width + mask[i].column] * observed.scale;

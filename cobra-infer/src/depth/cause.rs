@@ -6,6 +6,7 @@
 use super::report::DepthReport;
 use crate::math::{self, Real};
 use crate::pose::Pose;
+use crate::score::{Decision, Rejection};
 use crate::unit::Unit;
 use core::fmt;
 use nalgebra::Point3;
@@ -23,6 +24,12 @@ pub struct Correction {
 }
 
 impl Correction {
+    /// How far the object's middle moves.
+    #[must_use]
+    pub fn distance(&self) -> f32 {
+        (self.along_ray * self.along_ray + self.sideways * self.sideways).square_root()
+    }
+
     /// From one pose to another, of an object with this middle.
     #[must_use]
     pub fn between(pose: &Pose, refined: &Pose, [x, y, z]: [f32; 3]) -> Self {
@@ -31,11 +38,7 @@ impl Correction {
         let ray = [from.x, from.y, from.z];
         let moved = [to.x - from.x, to.y - from.y, to.z - from.z];
         let length = math::dot(ray, ray).square_root();
-        let along_ray = if length > 0.0 {
-            math::dot(moved, ray) / length
-        } else {
-            0.0
-        };
+        let along_ray = finite(math::dot(moved, ray) / length);
         let across = math::dot(moved, moved) - along_ray * along_ray;
         // ‖R − R′‖² = 8 sin²(θ/2) in the Frobenius norm.
         let difference = pose.rotation().matrix() - refined.rotation().matrix();
@@ -45,14 +48,15 @@ impl Correction {
         let sine = limited(0.125 * squares);
         Self {
             along_ray,
-            sideways: if across > 0.0 {
-                across.square_root()
-            } else {
-                0.0
-            },
+            sideways: finite(across.square_root()),
             turn: 2.0 * sine.square_root().arctangent((1.0 - sine).square_root()),
         }
     }
+}
+
+/// 0 in place of what rounding or the largest numbers make no length of.
+fn finite(length: f32) -> f32 {
+    if length.is_finite() { length } else { 0.0 }
 }
 
 fn limited(share: f32) -> f32 {
@@ -72,7 +76,7 @@ pub enum Cause {
         /// 1000 for a pose in metres and depth in millimetres.
         factor: f32,
     },
-    /// Another object stands in front of nearly all of it.
+    /// Something stands in front of nearly all of it; or the pose puts it far behind what was measured.
     InFront,
     /// The camera sees past most of what would have to hide the background: nothing is there, or something of
     /// another shape.
@@ -100,8 +104,13 @@ pub enum Cause {
     Unmeasured,
 }
 
-/// Ratios of the units that lengths come in.
-const UNITS: [f32; 4] = [10.0, 25.4, 100.0, 1000.0];
+/// Ratios of the units that lengths come in, and which units these may be, the larger one first.
+const UNITS: [(f32, [&str; 2]); 4] = [
+    (10.0, ["centimetres", "millimetres"]),
+    (25.4, ["inches", "millimetres"]),
+    (100.0, ["metres", "centimetres"]),
+    (1000.0, ["metres", "millimetres"]),
+];
 
 /// A ratio is that of two units within this factor: objects are not where they are expected exactly.
 const NEAR_UNIT: f32 = 1.35;
@@ -132,11 +141,11 @@ impl DepthReport {
         if let Some(factor) = unit_ratio(self.depth_ratio) {
             return Cause::Scale { factor };
         }
-        if self.visible == 0 {
+        if self.decision == Decision::Reject(Rejection::BehindCamera) {
             return Cause::BehindCamera;
         }
         let sigma = self.noise;
-        let fits = self.estimated_error < SMALL * sigma;
+        let fits = self.decision == Decision::Accept || self.estimated_error < SMALL * sigma;
         if !fits && math::abs(self.common_offset) >= LEAST_MOTION * sigma {
             return Cause::AlongRay {
                 distance: self.common_offset,
@@ -152,8 +161,14 @@ impl DepthReport {
         if looked_at == 0.0 {
             return Cause::Unmeasured;
         }
+        // Pixels that nothing of the visible surface lies on are a mask's: it sees the object elsewhere.
+        let masked_elsewhere = self.pixels >= FEWEST && self.pixels > self.judged;
         if hidden >= 0.9 * looked_at {
-            return Cause::InFront;
+            return match () {
+                () if !masked_elsewhere => Cause::InFront,
+                () if moves => self.motion(correction),
+                () => Cause::Elsewhere,
+            };
         }
         if fits {
             return if hidden > 0.5 * looked_at {
@@ -200,11 +215,33 @@ impl DepthReport {
 /// The ratio of units that a ratio of depths is near to, if it is.
 fn unit_ratio(ratio: f32) -> Option<f32> {
     let near = |unit: f32| ratio > unit / NEAR_UNIT && ratio < unit * NEAR_UNIT;
-    let larger = UNITS.into_iter().find(|unit| near(*unit));
-    larger.or_else(|| {
-        let inverse = UNITS.map(|unit| 1.0 / unit);
-        inverse.into_iter().find(|unit| near(*unit))
-    })
+    let larger = UNITS.map(|(unit, _)| unit);
+    let smaller = larger.map(|unit| 1.0 / unit);
+    larger.into_iter().chain(smaller).find(|unit| near(*unit))
+}
+
+fn write_scale(f: &mut fmt::Formatter<'_>, factor: f32) -> fmt::Result {
+    let inverse = 1.0 / factor;
+    for (unit, [larger, smaller]) in UNITS {
+        if math::abs(factor - unit) < 0.5 {
+            return write!(
+                f,
+                "wrong scale: depth is about {unit} times what the pose says, as of {larger} taken for \
+                 {smaller}"
+            );
+        }
+        if math::abs(inverse - unit) < 0.5 {
+            return write!(
+                f,
+                "wrong scale: depth is about 1/{unit} of what the pose says, as of {smaller} taken for \
+                 {larger}"
+            );
+        }
+    }
+    write!(
+        f,
+        "wrong scale: depth is about {factor} times what the pose says"
+    )
 }
 
 impl Cause {
@@ -221,18 +258,10 @@ impl Cause {
             Cause::BehindCamera => f.write_str(
                 "the pose puts the object behind or around the camera, as a wrong unit would",
             ),
-            Cause::Scale { factor } if factor > 1.0 => write!(
-                f,
-                "wrong scale: depth is about {factor} times what the pose says, as of metres \
-                 taken for millimetres"
-            ),
-            Cause::Scale { factor } => write!(
-                f,
-                "wrong scale: depth is about 1/{} of what the pose says, as of millimetres taken \
-                 for metres",
-                1.0 / factor
-            ),
-            Cause::InFront => f.write_str("another object stands in front of it"),
+            Cause::Scale { factor } => write_scale(f, factor),
+            Cause::InFront => {
+                f.write_str("something stands in front of nearly all of it, or it is too far away")
+            }
             Cause::SeenThrough => f.write_str(
                 "the camera sees past it: what was measured lies behind where the pose puts it",
             ),

@@ -2,23 +2,27 @@
 //!
 //! Owns the order of what is done and which pixels are used; each part has a file of its own.
 
+use super::cause::Correction;
 use super::error::DepthError;
 use super::observed::{DepthImage, DepthPixel};
+use super::pulse::Pulse;
 use super::refine::Equations;
 use super::report::DepthReport;
 use super::reverse::{Evidence, Sight, look_up};
-use super::settings::DepthSettings;
+use super::settings::{DepthSettings, positive};
 use super::surface::{Nearby, Surface, TemplateSurface};
 use super::zbuffer::{Cell, Window, ZBuffer};
 use crate::camera::Camera;
 use crate::math::Real;
 use crate::pose::Pose;
 use crate::template::Template;
+use crate::trace;
 use nalgebra::Point3;
 
-/// Points of the surface lie this share of a cell of the depth buffer apart, at the object's middle: closer
-/// to the camera cells are smaller, and where they lie sideways they cover less.
-const POINTS_PER_CELL: f32 = 0.7;
+/// Points of the surface lie this share of a cell of the depth buffer apart at the object's middle, and up to a
+/// whole one where an object three radii away is nearest to the camera. It does not depend on the pose, so
+/// that a host may keep them.
+const SPACING_IN_CELLS: f32 = 0.7;
 
 /// The displacement is a mean over points of the surface this share of the radius apart.
 const DISPLACEMENT_SPACING: f32 = 0.25;
@@ -44,13 +48,14 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
     /// Takes the settings but for their noise, which the surface brings with it.
     ///
     /// # Errors
-    /// [`DepthError`] where a setting is out of its range.
+    /// [`DepthError`] where a setting, or the surface's noise, is out of its range.
     pub fn new(
         surface: &'s S,
         camera: &Camera,
         settings: &DepthSettings,
     ) -> Result<Self, DepthError> {
         settings.check()?;
+        positive(surface.noise())?;
         Ok(Self {
             surface,
             camera: *camera,
@@ -59,8 +64,8 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
     }
 
     /// Checks a pose; `cells` is scratch memory, at least [`DepthSettings::cells`] of them, whatever they
-    /// hold. `alive` is called now and then, at least once every 64 pixels or points: where a watchdog can
-    /// be fed.
+    /// hold. `alive` is called at least once every 64 pixels, cells, or places where a point of the surface
+    /// may be: where a watchdog can be fed.
     ///
     /// # Errors
     /// [`DepthError::Cells`] where the scratch memory is too small.
@@ -73,19 +78,21 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         alive: &mut impl FnMut(),
     ) -> Result<DepthReport, DepthError> {
         let noise = self.noise();
+        let pulse = &mut Pulse::new(alive);
         let mut report = DepthReport::behind_camera(pose, noise);
-        let Some(buffer) = self.depth_buffer(pose, cells, alive)? else {
-            report.depth_ratio = self.depth_ratio(pose, observed);
+        let Some(buffer) = self.depth_buffer(pose, cells, pulse)? else {
+            report.depth_ratio = self.depth_ratio(pose, observed, pulse);
+            trace::pose_checked(&report);
             return Ok(report);
         };
         let mut evidence = Evidence::default();
-        for visible in buffer.visible() {
-            let sight = look_up(image, &visible, noise);
-            evidence.add(&visible, sight, noise, self.surface.diameter());
-        }
+        buffer.visible(pulse, &mut |visible| {
+            let sight = look_up(image, visible, noise);
+            evidence.add(visible, sight, noise, self.surface.diameter());
+        });
         report.take(&evidence);
         if matches!(observed, Observed::Pixels(_)) {
-            report.depth_ratio = self.depth_ratio(pose, observed);
+            report.depth_ratio = self.depth_ratio(pose, observed, pulse);
         }
         let pixels = Pixels {
             observed,
@@ -93,8 +100,9 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
             image,
             noise,
         };
-        self.refine(pose, &pixels, &mut report, alive);
+        self.refine(pose, &pixels, &mut report, pulse);
         report.conclude(&self.settings);
+        trace::pose_checked(&report);
         Ok(report)
     }
 
@@ -108,26 +116,34 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         &self,
         pose: &Pose,
         cells: &'m mut [Cell],
-        alive: &mut impl FnMut(),
+        pulse: &mut Pulse<'_, impl FnMut()>,
     ) -> Result<Option<ZBuffer<'m>>, DepthError> {
         let (expected, found) = (self.settings.cells(), cells.len());
         let cells = cells
             .get_mut(..expected)
             .ok_or(DepthError::Cells { expected, found })?;
         let window = self.window(pose);
-        Ok(window.map(|window| self.visible(pose, window, cells, alive)))
+        Ok(window.map(|window| self.visible(pose, window, cells, pulse)))
     }
 
     /// What the observed pixels say of the object's depth.
-    fn depth_ratio(&self, pose: &Pose, observed: Observed<'_>) -> f32 {
+    fn depth_ratio(
+        &self,
+        pose: &Pose,
+        observed: Observed<'_>,
+        pulse: &mut Pulse<'_, impl FnMut()>,
+    ) -> f32 {
         let Observed::Pixels(pixels) = observed else {
             return 0.0;
         };
         let [x, y, z] = self.surface.centre();
         let expected = pose.to_camera(&Point3::new(x, y, z)).z;
         let mut evidence = Evidence::default();
-        for pixel in pixels.iter().filter(|pixel| pixel.depth > 0.0) {
-            evidence.compare(pixel.depth, expected);
+        for pixel in pixels {
+            pulse.beat();
+            if pixel.is_measured() {
+                evidence.compare(pixel.depth, expected);
+            }
         }
         evidence.depth_ratio()
     }
@@ -139,11 +155,14 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         let middle = pose.to_camera(&Point3::new(x, y, z));
         let radius = self.surface.radius();
         let near = middle.z - radius;
-        let pixel = self.camera.project(&middle)?;
         // Also what is not finite is not in front of the camera.
-        (near > 0.0 && near.is_finite()).then(|| Window {
-            middle: pixel,
-            half: self.camera.largest_focal_length() * radius / near,
+        if !(near > 0.0 && near.is_finite()) {
+            return None;
+        }
+        let (middle, half) = self.camera.square_around(&middle, radius);
+        Some(Window {
+            middle,
+            half,
             near,
             range: 2.0 * radius,
         })
@@ -155,13 +174,15 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         pose: &Pose,
         window: Window,
         cells: &'m mut [Cell],
-        alive: &mut impl FnMut(),
+        pulse: &mut Pulse<'_, impl FnMut()>,
     ) -> ZBuffer<'m> {
         let mut buffer = ZBuffer::new(cells, self.settings.side, window, self.surface.diameter());
         let cell = 2.0 * self.surface.radius() / f32::from(self.settings.side);
-        let mut count = 0_u32;
-        self.surface.sample(POINTS_PER_CELL * cell, &mut |point| {
-            feed(&mut count, alive);
+        self.surface.sample(SPACING_IN_CELLS * cell, &mut |point| {
+            pulse.beat();
+            let Some(point) = point else {
+                return;
+            };
             let seen = pose.to_camera(point);
             if let Some(pixel) = self.camera.project(&seen) {
                 buffer.insert(pixel, seen.z);
@@ -177,12 +198,12 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         pose: &Pose,
         pixels: &Pixels<'_, impl DepthImage>,
         report: &mut DepthReport,
-        alive: &mut impl FnMut(),
+        pulse: &mut Pulse<'_, impl FnMut()>,
     ) {
         // The settings were checked, which is not seen from here.
         let step_pixels = u32::from(self.settings.step_pixels.max(1));
-        let every = pixels.count().div_ceil(step_pixels).max(1);
-        let (all, mut equations) = self.first_look(pose, pixels, every, alive);
+        let every = pixels.count(pulse).div_ceil(step_pixels).max(1);
+        let (all, mut equations) = self.first_look(pose, pixels, every, pulse);
         report.pixels = all.count();
         report.silent = all.silent();
         report.forward = all.likelihood();
@@ -191,10 +212,10 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
                 break;
             };
             report.refined = next;
-            equations = self.equations(&next, pixels, every, alive);
+            equations = self.equations(&next, pixels, every, pulse);
         }
         report.residual = equations.residual();
-        report.displacement = self.displacement(pose, &report.refined, alive);
+        report.displacement = self.displacement(pose, &report.refined, pulse);
     }
 
     /// The equations of all pixels, and of every so many-th: what a pixel comes to is asked once for both.
@@ -203,13 +224,11 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         pose: &Pose,
         pixels: &Pixels<'_, impl DepthImage>,
         every: u32,
-        alive: &mut impl FnMut(),
+        pulse: &mut Pulse<'_, impl FnMut()>,
     ) -> (Equations, Equations) {
         let (mut all, mut some) = (Equations::new(self.surface), Equations::new(self.surface));
-        let mut count = 0_u32;
         let mut turn = Turn::new(every);
-        pixels.each(1, &mut |pixel| {
-            feed(&mut count, alive);
+        pixels.each(1, pulse, &mut |pixel| {
             let nearby = self.look_back(pose, pixel);
             all.add(nearby);
             if turn.comes() {
@@ -224,12 +243,10 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
         pose: &Pose,
         pixels: &Pixels<'_, impl DepthImage>,
         every: u32,
-        alive: &mut impl FnMut(),
+        pulse: &mut Pulse<'_, impl FnMut()>,
     ) -> Equations {
         let mut equations = Equations::new(self.surface);
-        let mut count = 0_u32;
-        pixels.each(every, &mut |pixel| {
-            feed(&mut count, alive);
+        pixels.each(every, pulse, &mut |pixel| {
             equations.add(self.look_back(pose, pixel));
         });
         equations
@@ -251,25 +268,31 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
 
     /// ADD between two poses, over points of the surface.
     #[inline(never)]
-    fn displacement(&self, pose: &Pose, refined: &Pose, alive: &mut impl FnMut()) -> f32 {
+    fn displacement(
+        &self,
+        pose: &Pose,
+        refined: &Pose,
+        pulse: &mut Pulse<'_, impl FnMut()>,
+    ) -> f32 {
         let (mut sum, mut count) = (0.0_f32, 0_u32);
-        let spacing = DISPLACEMENT_SPACING * self.surface.radius();
-        self.surface.sample(spacing, &mut |point| {
-            feed(&mut count, alive);
-            let (a, b) = (pose.to_camera(point), refined.to_camera(point));
-            let moved = [a.x - b.x, a.y - b.y, a.z - b.z];
-            sum += crate::math::dot(moved, moved).square_root();
-        });
-        sum / count.max(1) as f32
-    }
-}
-
-/// Counts, and calls on every 64th.
-#[inline]
-fn feed(count: &mut u32, alive: &mut impl FnMut()) {
-    *count = count.saturating_add(1);
-    if count.is_multiple_of(64) {
-        alive();
+        let radius = self.surface.radius();
+        self.surface
+            .sample(DISPLACEMENT_SPACING * radius, &mut |point| {
+                pulse.beat();
+                let Some(point) = point else {
+                    return;
+                };
+                count = count.saturating_add(1);
+                let (a, b) = (pose.to_camera(point), refined.to_camera(point));
+                let moved = [a.x - b.x, a.y - b.y, a.z - b.z];
+                sum += crate::math::dot(moved, moved).square_root();
+            });
+        if count == 0 {
+            // So few points are asked for that a small surface may have none: no point moves farther.
+            let moved = Correction::between(pose, refined, self.surface.centre());
+            return moved.distance() + moved.turn * radius;
+        }
+        sum / count as f32
     }
 }
 
@@ -305,28 +328,38 @@ struct Pixels<'a, I> {
 
 impl<I: DepthImage> Pixels<'_, I> {
     /// How many have a depth.
-    fn count(&self) -> u32 {
+    fn count(&self, pulse: &mut Pulse<'_, impl FnMut()>) -> u32 {
         let mut count = 0_u32;
-        self.each(1, &mut |_| count = count.saturating_add(1));
+        self.each(1, pulse, &mut |_| count = count.saturating_add(1));
         count
     }
 
     /// Every so many-th that has a depth.
-    fn each(&self, every: u32, act: &mut impl FnMut(&DepthPixel)) {
+    fn each(
+        &self,
+        every: u32,
+        pulse: &mut Pulse<'_, impl FnMut()>,
+        act: &mut impl FnMut(&DepthPixel),
+    ) {
         let mut turn = Turn::new(every);
         let mut take = |pixel: &DepthPixel| {
-            if !pixel.depth.is_nan() && pixel.depth > 0.0 && turn.comes() {
+            if pixel.is_measured() && turn.comes() {
                 act(pixel);
             }
         };
         match self.observed {
-            Observed::Pixels(pixels) => pixels.iter().for_each(take),
+            Observed::Pixels(pixels) => {
+                for pixel in pixels {
+                    pulse.beat();
+                    take(pixel);
+                }
+            }
             Observed::Silhouette => {
-                for visible in self.buffer.visible() {
-                    if let Sight::Measured(pixel, _) = look_up(self.image, &visible, self.noise) {
+                self.buffer.visible(pulse, &mut |visible| {
+                    if let Sight::Measured(pixel, _) = look_up(self.image, visible, self.noise) {
                         take(&pixel);
                     }
-                }
+                });
             }
         }
     }
@@ -346,11 +379,8 @@ pub fn check_depth<const COMPONENTS: usize>(
     image: &impl DepthImage,
     cells: &mut [Cell],
 ) -> Result<DepthReport, DepthError> {
-    let [x, y, z] = template.centre();
-    let depth = pose.to_camera(&Point3::new(x, y, z)).z;
-    let noise = settings.noise.at(template.diameter(), depth)?;
     // Used inside its result: moved out, it would lie on the stack twice.
-    let surface = TemplateSurface::<COMPONENTS>::new(template, noise);
+    let surface = TemplateSurface::<COMPONENTS>::at_pose(template, settings, pose);
     let surface = match &surface {
         Ok(surface) => surface,
         Err(error) => return Err(*error),

@@ -32,6 +32,7 @@ mod cause;
 mod check;
 mod error;
 mod observed;
+mod pulse;
 mod refine;
 mod report;
 mod residual;

@@ -15,8 +15,9 @@ pub struct DepthPixel {
     pub column: u16,
     /// Row, from 0.
     pub row: u16,
-    /// λ, the z-depth along the camera's axis, in the template's unit; 0 or what is no finite number where
-    /// nothing was measured.
+    /// λ, the z-depth along the camera's axis, in the template's unit; 0, or what is no number, where
+    /// nothing was measured. Infinite where it is known that nothing is as near as the object: that counts
+    /// against the pose.
     pub depth: f32,
 }
 
@@ -26,6 +27,12 @@ impl DepthPixel {
     #[inline]
     pub fn pixel(&self) -> Point2<f32> {
         Point2::new(f32::from(self.column), f32::from(self.row))
+    }
+
+    #[inline]
+    pub(super) fn is_measured(&self) -> bool {
+        // Nor is what is no number.
+        self.depth > 0.0
     }
 }
 

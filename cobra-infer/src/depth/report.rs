@@ -8,6 +8,7 @@ use crate::score::{Decision, Doubt, Rejection};
 
 /// The answer. None of its numbers is ever NaN; lengths are in the template's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DepthReport {
     /// exp(−estimated_error²/2σ²), the least of the three likelihoods, from 0 to 1; 0 where it would rest on
     /// fewer than [`DepthSettings::minimum_points`] pixels or points of the surface.
@@ -55,6 +56,24 @@ pub struct DepthReport {
 }
 
 impl DepthReport {
+    /// What a [`crate::tracking::Tracker`] takes in of this frame: the confidence, also where a single frame's
+    /// answer is undecided between the thresholds; `None` where too little was seen for one, because
+    /// something hides the object or the image ends there.
+    #[must_use]
+    pub fn evidence(&self) -> Option<f32> {
+        match self.decision {
+            Decision::Undecided(Doubt::Hidden | Doubt::TooFewPoints) => None,
+            _ => Some(self.confidence),
+        }
+    }
+
+    /// On how many pixels or points of the surface it rests, whichever are fewer: what
+    /// [`DepthSettings::minimum_points`] is compared with.
+    #[must_use]
+    pub fn valid_pixels(&self) -> u32 {
+        self.pixels.min(self.judged)
+    }
+
     /// Of a pose whose object does not lie in front of the camera.
     pub(super) fn behind_camera(pose: &Pose, noise: f32) -> Self {
         Self {
@@ -101,9 +120,15 @@ impl DepthReport {
         if self.judged < few || self.pixels < few {
             // What little there is may fit by chance.
             self.confidence = 0.0;
-            self.estimated_error = length(0.0, self.noise);
+            self.estimated_error = largest(length(0.0, self.noise), self.displacement);
         }
-        self.decision = if self.judged < few && self.hidden >= few {
+        // Of a mask: what shows the object does not fit, whatever hides where the pose puts it.
+        let contradicted = settings.thresholds.is_some_and(|thresholds| {
+            self.pixels >= few && least(displaced, self.forward) < thresholds.reject
+        });
+        self.decision = if self.judged < few && contradicted {
+            Decision::Reject(Rejection::BelowThreshold)
+        } else if self.judged < few && self.hidden >= few {
             Decision::Undecided(Doubt::Hidden)
         } else if self.judged < few || self.pixels < few {
             Decision::Undecided(Doubt::TooFewPoints)

@@ -7,6 +7,7 @@
 use super::check::DepthCheck;
 use super::error::DepthError;
 use super::observed::{DepthImage, DepthPixel};
+use super::pulse::Pulse;
 use super::reverse::{Sight, look_up};
 use super::surface::Surface;
 use super::zbuffer::Cell;
@@ -71,7 +72,7 @@ impl<S: Surface> DepthCheck<'_, S> {
         pixels: &[DepthPixel],
         take: &mut impl FnMut(&DepthPixel, Option<PixelResidual>),
     ) {
-        for pixel in pixels.iter().filter(|pixel| pixel.depth > 0.0) {
+        for pixel in pixels.iter().filter(|pixel| pixel.is_measured()) {
             take(pixel, self.pixel_residual(pose, pixel));
         }
     }
@@ -103,15 +104,16 @@ impl<S: Surface> DepthCheck<'_, S> {
         alive: &mut impl FnMut(),
         take: &mut impl FnMut(&SurfacePoint),
     ) -> Result<(), DepthError> {
-        let Some(buffer) = self.depth_buffer(pose, cells, alive)? else {
+        let pulse = &mut Pulse::new(alive);
+        let Some(buffer) = self.depth_buffer(pose, cells, pulse)? else {
             return Ok(());
         };
         let sigma = self.noise();
-        for visible in buffer.visible() {
+        buffer.visible(pulse, &mut |visible| {
             take(&SurfacePoint {
                 pixel: visible.pixel,
                 depth: visible.depth,
-                seen: match look_up(image, &visible, sigma) {
+                seen: match look_up(image, visible, sigma) {
                     Sight::Unmeasured => Seen::Unmeasured,
                     Sight::Hidden(depth) => Seen::Hidden {
                         in_front: visible.depth - depth,
@@ -122,7 +124,7 @@ impl<S: Surface> DepthCheck<'_, S> {
                     Sight::Measured(_, behind) => Seen::Surface { behind },
                 },
             });
-        }
+        });
         Ok(())
     }
 }

@@ -25,7 +25,8 @@ pub enum Noise {
 }
 
 impl Noise {
-    /// σ_m of an object of this diameter at this depth.
+    /// σ_m of an object of this diameter at this depth. What is not in front of the camera counts as one
+    /// diameter away: a sensor's model says nothing of it, and no confidence will depend on it.
     ///
     /// # Errors
     /// [`DepthError::Noise`] where it is not positive and finite.
@@ -36,13 +37,21 @@ impl Noise {
                 constant,
                 linear,
                 quadratic,
-            } => constant + (linear + quadratic * depth) * depth,
+            } => {
+                let depth = if depth > 0.0 { depth } else { diameter };
+                constant + (linear + quadratic * depth) * depth
+            }
         };
-        if sigma.is_finite() && sigma >= f32::MIN_POSITIVE {
-            Ok(sigma)
-        } else {
-            Err(DepthError::Noise { found: sigma })
-        }
+        positive(sigma)
+    }
+}
+
+/// σ_m itself, if it is one.
+pub(super) fn positive(sigma: f32) -> Result<f32, DepthError> {
+    if sigma.is_finite() && sigma >= f32::MIN_POSITIVE {
+        Ok(sigma)
+    } else {
+        Err(DepthError::Noise { found: sigma })
     }
 }
 
@@ -83,8 +92,8 @@ impl DepthSettings {
     /// More cells than there are pixels of most objects.
     pub const LARGEST_SIDE: u16 = 256;
 
-    /// The noise of templates that do not say theirs, a buffer of 32² cells, four steps on 150 pixels, at least ten points, and no
-    /// thresholds.
+    /// The noise of templates that do not say theirs, a buffer of 32² cells, four steps on at most 150
+    /// pixels, at least ten points, and no thresholds.
     pub const DEFAULT: Self = Self {
         noise: Noise::Share(DepthRecord::NOISE_SHARE),
         thresholds: None,

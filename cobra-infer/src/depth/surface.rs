@@ -4,7 +4,9 @@
 //! is how it is measured what a template loses.
 
 use super::error::DepthError;
+use super::settings::DepthSettings;
 use crate::mixture::{Mixture, Settings, Sigma};
+use crate::pose::Pose;
 use crate::template::Template;
 use nalgebra::Point3;
 
@@ -38,8 +40,9 @@ pub trait Surface {
     fn nearby(&self, point: &Point3<f32>) -> Option<Nearby>;
 
     /// Hands over points of it, all sides of it, no farther apart than about `spacing`, in an order that
-    /// is always the same.
-    fn sample(&self, spacing: f32, take: &mut impl FnMut(&Point3<f32>));
+    /// is always the same; `None` for every place where it looked for one and there is none, so that who
+    /// has to feed a watchdog can count them.
+    fn sample(&self, spacing: f32, take: &mut impl FnMut(Option<&Point3<f32>>));
 }
 
 /// A template of at most `COMPONENTS` components as a surface.
@@ -74,6 +77,22 @@ impl<'t, const COMPONENTS: usize> TemplateSurface<'t, COMPONENTS> {
         }
         result
     }
+
+    /// The same with the noise that the settings give the object where the pose puts it.
+    ///
+    /// # Errors
+    /// As [`TemplateSurface::new`]; [`DepthError::Noise`] where the noise is not positive and finite.
+    pub fn at_pose(
+        template: &'t Template<'t>,
+        settings: &DepthSettings,
+        pose: &Pose,
+    ) -> Result<Self, DepthError> {
+        let middle = pose.to_camera(&Point3::from(template.centre()));
+        match settings.noise.at(template.diameter(), middle.z) {
+            Ok(noise) => Self::new(template, noise),
+            Err(error) => Err(error),
+        }
+    }
 }
 
 impl<const COMPONENTS: usize> Surface for TemplateSurface<'_, COMPONENTS> {
@@ -104,7 +123,7 @@ impl<const COMPONENTS: usize> Surface for TemplateSurface<'_, COMPONENTS> {
         })
     }
 
-    fn sample(&self, spacing: f32, take: &mut impl FnMut(&Point3<f32>)) {
+    fn sample(&self, spacing: f32, take: &mut impl FnMut(Option<&Point3<f32>>)) {
         self.mixture.sample(spacing, take);
     }
 }

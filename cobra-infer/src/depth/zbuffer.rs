@@ -4,6 +4,7 @@
 //! keeps the nearest of the points that fall into it, with its place inside the cell, so that the buffer is
 //! also the list of visible points.
 
+use super::pulse::Pulse;
 use nalgebra::Point2;
 
 /// A cell of the buffer: four bytes.
@@ -54,6 +55,15 @@ pub(super) struct Window {
     pub(super) range: f32,
 }
 
+impl Window {
+    /// How wide and high its cells are, in pixels: as small as it takes, but no smaller than a pixel, so
+    /// that no pixel is evidence twice.
+    pub(super) fn cell(&self, side: u16) -> f32 {
+        let size = 2.0 * self.half / f32::from(side);
+        if size > 1.0 { size } else { 1.0 }
+    }
+}
+
 /// `side`² cells over a square of the image.
 #[derive(Debug)]
 pub(super) struct ZBuffer<'m> {
@@ -67,16 +77,30 @@ pub(super) struct ZBuffer<'m> {
     margin: u16,
 }
 
+/// As far as an `i32` reaches.
+fn nearest_integer(number: f32) -> f32 {
+    let half = if number < 0.0 { -0.5 } else { 0.5 };
+    (number + half) as i32 as f32
+}
+
 impl<'m> ZBuffer<'m> {
     /// Over a window, with `side`² cells.
     pub(super) fn new(cells: &'m mut [Cell], side: u16, window: Window, diameter: f32) -> Self {
         cells.fill(Cell::EMPTY);
         let step = window.range / f32::from(EMPTY - 1);
+        let size = window.cell(side);
+        let half = 0.5 * size * f32::from(side);
+        let corner = [window.middle.x - half, window.middle.y - half];
         Self {
             cells,
             side,
-            corner: [window.middle.x - window.half, window.middle.y - window.half],
-            size: 2.0 * window.half / f32::from(side),
+            // Cells of a pixel are pixels, whose centres are at integers.
+            corner: if size > 1.0 {
+                corner
+            } else {
+                corner.map(|edge| nearest_integer(edge) - 0.5)
+            },
+            size,
             near: window.near,
             step,
             margin: (HIDING_SHARE * diameter / step) as u16,
@@ -140,24 +164,32 @@ impl<'m> ZBuffer<'m> {
         nearer >= HIDING
     }
 
-    /// The points that the camera sees, row by row.
-    pub(super) fn visible(&self) -> impl Iterator<Item = Visible> + use<'_, 'm> {
+    /// Hands over the points that the camera sees, row by row.
+    pub(super) fn visible(
+        &self,
+        pulse: &mut Pulse<'_, impl FnMut()>,
+        take: &mut impl FnMut(&Visible),
+    ) {
         let rows = self.cells.chunks_exact(usize::from(self.side.max(1)));
-        (0_u16..).zip(rows).flat_map(move |(row, cells)| {
-            (0_u16..).zip(cells).filter_map(move |(column, cell)| {
-                if cell.depth == EMPTY || self.is_hidden(column, row, cell.depth) {
-                    return None;
+        for (row, cells) in (0_u16..).zip(rows) {
+            for (column, cell) in (0_u16..).zip(cells) {
+                pulse.beat();
+                if cell.depth != EMPTY && !self.is_hidden(column, row, cell.depth) {
+                    take(&self.point(column, row, cell));
                 }
-                let [left, top] = self.corner;
-                let [x, y] = cell.place.map(|place| (f32::from(place) + 0.5) / 256.0);
-                Some(Visible {
-                    pixel: Point2::new(
-                        left + (f32::from(column) + x) * self.size,
-                        top + (f32::from(row) + y) * self.size,
-                    ),
-                    depth: self.near + (f32::from(cell.depth) + 0.5) * self.step,
-                })
-            })
-        })
+            }
+        }
+    }
+
+    fn point(&self, column: u16, row: u16, cell: &Cell) -> Visible {
+        let [left, top] = self.corner;
+        let [x, y] = cell.place.map(|place| (f32::from(place) + 0.5) / 256.0);
+        Visible {
+            pixel: Point2::new(
+                left + (f32::from(column) + x) * self.size,
+                top + (f32::from(row) + y) * self.size,
+            ),
+            depth: self.near + (f32::from(cell.depth) + 0.5) * self.step,
+        }
     }
 }

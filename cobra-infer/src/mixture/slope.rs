@@ -7,6 +7,7 @@
 use super::{Match, Mixture};
 use crate::gp;
 use crate::math::{self, Real};
+use crate::template::Stored;
 use crate::validity::{self, Cell};
 use nalgebra::Point3;
 
@@ -47,15 +48,16 @@ impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
     }
 
     /// Points that the components predict where they may speak, about `spacing` apart: on the grid of each
-    /// component's directions every so many cells, or several of a cell. Nothing without validity.
-    pub(crate) fn sample(&self, spacing: f32, take: &mut impl FnMut(&Point3<f32>)) {
+    /// component's directions every so many cells, or several of a cell; `None` for a cell, or a point, where
+    /// it may not speak. Nothing without validity.
+    pub(crate) fn sample(&self, spacing: f32, take: &mut impl FnMut(Option<&Point3<f32>>)) {
         for (index, component) in self.template.stored().enumerate() {
             let validity = self.template.validities().and_then(|all| all.get(index));
             let Some(validity) = validity else {
                 return;
             };
             // Along the middle of an octahedral face a cell is 2√(3/2)/side wide, seen from the centre.
-            let width = 2.45 / f32::from(validity.side()) * math::abs(component.prior_mean());
+            let width = 2.45 / f32::from(validity.side()) * self.usual_distance(component);
             let (every, within) = steps(spacing / width);
             let share = 1.0 / f32::from(within);
             let side = validity.side();
@@ -64,7 +66,9 @@ impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
                 let mut column = every / 2;
                 while column < side {
                     let cell = Cell { column, row };
-                    if validity.contains(cell) {
+                    if !validity.contains(cell) {
+                        take(None);
+                    } else {
                         for inside in 0..within * within {
                             let at = [inside % within, inside / within]
                                 .map(|step| (f32::from(step) + 0.5) * share);
@@ -79,9 +83,24 @@ impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
         }
     }
 
+    /// About how far the surface is from a component's reference point: the prior mean, if it says that.
+    fn usual_distance(&self, component: Stored<'_>) -> f32 {
+        let prior = math::abs(component.prior_mean());
+        if prior > 0.0 {
+            prior
+        } else {
+            self.template.radius()
+        }
+    }
+
     /// The point that a component predicts in a direction, if it may.
     #[inline]
-    fn predicted_at(&self, index: usize, [x, y, z]: [f32; 3], take: &mut impl FnMut(&Point3<f32>)) {
+    fn predicted_at(
+        &self,
+        index: usize,
+        [x, y, z]: [f32; 3],
+        take: &mut impl FnMut(Option<&Point3<f32>>),
+    ) {
         let found = || {
             let component = self.template.stored_at(index)?;
             let validity = self.template.validities()?.get(index)?;
@@ -93,9 +112,7 @@ impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
             let point = Point3::new(cx + mean * x, cy + mean * y, cz + mean * z);
             (mean.is_finite() && validity.meets(place)).then_some(point)
         };
-        if let Some(point) = found() {
-            take(&point);
-        }
+        take(found().as_ref());
     }
 }
 

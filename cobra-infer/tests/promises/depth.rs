@@ -3,6 +3,7 @@
 use crate::depth_scene::{RADIUS, SIGMA, Scene, cause, run, settings, sphere};
 use crate::scene::{IDENTITY, camera, pose};
 use cobra_infer::depth::{Cause, Cell, DepthError, DepthSettings, Noise, Observed, check_depth};
+use cobra_infer::tracking::{Tracker, TrackerSettings, TrackingState};
 use cobra_infer::{Decision, Doubt, Pose, Rejection, Template};
 
 #[test]
@@ -137,6 +138,72 @@ fn what_fits_by_chance_in_a_few_points_has_no_confidence() {
 }
 
 #[test]
+fn an_object_of_three_pixels_is_undecided() {
+    let far = Pose::from_row_major(IDENTITY, [0.0, 0.0, 10_700.0]).unwrap();
+    for masked in [true, false] {
+        let report = run(&far, &Scene::at(0.0, 10_700.0), masked, &settings());
+        let few = Decision::Undecided(Doubt::TooFewPoints);
+        assert_eq!(report.decision, few, "{report:?}");
+        assert!(report.judged <= 9, "{report:?}");
+        assert_eq!(report.evidence(), None);
+    }
+}
+
+#[test]
+fn an_object_at_the_edge_of_a_wide_image_is_seen_whole() {
+    let wide = Pose::from_row_major(IDENTITY, [350.0, 0.0, 500.0]).unwrap();
+    let mut scene = Scene::at(0.0, 500.0);
+    scene.centre = [350.0, 0.0, 500.0];
+    let report = run(&wide, &scene, false, &settings());
+    let middle = run(&pose(0.0), &Scene::at(0.0, 500.0), false, &settings());
+    assert!(report.confidence > 0.98, "{report:?}");
+    assert!(report.visible > middle.visible * 2 / 3, "{report:?}");
+}
+
+#[test]
+fn a_mask_that_shows_the_object_elsewhere_contradicts_a_pose_behind_something() {
+    let mut scene = Scene::at(0.0, 500.0);
+    scene.wall = Some((312, 450.0));
+    let behind = Pose::from_row_major(IDENTITY, [-80.0, 0.0, 700.0]).unwrap();
+    let report = run(&behind, &scene, true, &settings());
+    assert!(report.hidden > 0 && report.judged == 0, "{report:?}");
+    assert_eq!(
+        report.decision,
+        Decision::Reject(Rejection::BelowThreshold),
+        "{report:?}"
+    );
+    assert!(report.estimated_error >= report.displacement);
+    assert_ne!(cause(&behind, &report), Cause::InFront);
+    // Without a mask something may stand in front of it.
+    let report = run(&behind, &scene, false, &settings());
+    assert_eq!(report.decision, Decision::Undecided(Doubt::Hidden));
+    assert_eq!(cause(&behind, &report), Cause::InFront);
+}
+
+#[test]
+fn a_hand_in_front_is_no_evidence_for_a_tracker_and_a_frame_between_the_thresholds_is() {
+    let mut covered = Scene::at(0.0, 500.0);
+    covered.wall = Some((640, 200.0));
+    let hidden = run(&pose(0.0), &covered, false, &settings());
+    assert_eq!(hidden.decision, Decision::Undecided(Doubt::Hidden));
+    assert_eq!((hidden.confidence, hidden.evidence()), (0.0, None));
+    let between = run(&pose(0.0), &Scene::at(0.0, 507.0), true, &settings());
+    let right = run(&pose(0.0), &Scene::at(0.0, 500.0), true, &settings());
+    let mut tracker = Tracker::new(TrackerSettings::with_thresholds(0.3, 0.6)).unwrap();
+    for report in [right, right, right, hidden, hidden, hidden, right] {
+        tracker.update(report.evidence());
+    }
+    for _ in 0..20 {
+        assert_eq!(tracker.update(between.evidence()), TrackingState::Tracking);
+    }
+    let gone = run(&pose(0.0), &Scene::at(0.0, 900.0), false, &settings());
+    for _ in 0..10 {
+        tracker.update(gone.evidence());
+    }
+    assert!(matches!(tracker.state(), TrackingState::Lost(_)));
+}
+
+#[test]
 fn a_pose_behind_the_camera_or_around_it_is_rejected() {
     for z in [-500.0, 0.0, 30.0] {
         let behind = Pose::from_row_major(IDENTITY, [0.0, 0.0, z]).unwrap();
@@ -172,6 +239,22 @@ fn the_error_and_the_confidence_say_the_same() {
         let expected = cobra_infer::math::exp(-0.5 * scaled * scaled);
         assert!((report.confidence - expected).abs() < 1e-5, "{report:?}");
     }
+}
+
+#[test]
+fn a_pose_behind_the_camera_is_rejected_whatever_the_sensors_noise_is_there() {
+    let settings = DepthSettings {
+        noise: Noise::Sensor {
+            constant: 1.0,
+            linear: 0.002,
+            quadratic: 0.0,
+        },
+        ..settings()
+    };
+    let behind = Pose::from_row_major(IDENTITY, [0.0, 0.0, -800.0]).unwrap();
+    let report = run(&behind, &Scene::at(0.0, 500.0), true, &settings);
+    assert_eq!(report.decision, Decision::Reject(Rejection::BehindCamera));
+    assert_eq!(cause(&behind, &report), Cause::BehindCamera);
 }
 
 #[test]

@@ -17,7 +17,27 @@ fn metres_taken_for_millimetres_are_told_from_other_errors() {
     let report = run(&far, &Scene::at(0.0, 500.0), false, &settings());
     assert_eq!(cause(&far, &report), Cause::Scale { factor: 0.1 });
     let text = cause(&far, &report).to_string();
-    assert!(text.starts_with("wrong scale"), "{text}");
+    assert!(
+        text.ends_with("1/10 of what the pose says, as of millimetres taken for centimetres"),
+        "{text}"
+    );
+    for (factor, said) in [
+        (
+            1000.0,
+            "about 1000 times what the pose says, as of metres taken for millimetres",
+        ),
+        (
+            1.0 / 1000.0,
+            "about 1/1000 of what the pose says, as of millimetres taken for metres",
+        ),
+        (
+            25.4,
+            "about 25.4 times what the pose says, as of inches taken for millimetres",
+        ),
+    ] {
+        let text = Cause::Scale { factor }.to_string();
+        assert!(text.ends_with(said), "{text}");
+    }
 }
 
 #[test]

@@ -67,8 +67,8 @@ impl Surface for MeshSurface {
 
     /// Always the same [`SAMPLES`] points, whatever the spacing: a caller that asks for closer ones does not get
     /// them.
-    fn sample(&self, _: f32, take: &mut impl FnMut(&Point3<f32>)) {
-        self.points.iter().for_each(take);
+    fn sample(&self, _: f32, take: &mut impl FnMut(Option<&Point3<f32>>)) {
+        self.points.iter().map(Some).for_each(take);
     }
 }
 
@@ -84,7 +84,7 @@ mod tests {
         let surface = MeshSurface::new(&mesh, 2.0, 0);
         let points = |spacing| {
             let mut points = Vec::new();
-            surface.sample(spacing, &mut |point| points.push(*point));
+            surface.sample(spacing, &mut |point| points.extend(point.copied()));
             points
         };
         assert_eq!(points(1e-3).len(), SAMPLES);

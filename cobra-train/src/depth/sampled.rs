@@ -36,7 +36,7 @@ impl<S: Surface> SampledSurface<S> {
         kept.unwrap_or_else(|| {
             let mut points = Vec::new();
             self.surface
-                .sample(spacing, &mut |point| points.push(*point));
+                .sample(spacing, &mut |point| points.extend(point));
             let points: Arc<[Point3<f32>]> = points.into();
             let mut kept = self.kept.write().unwrap_or_else(PoisonError::into_inner);
             if find(&kept).is_none() {
@@ -71,8 +71,8 @@ impl<S: Surface> Surface for SampledSurface<S> {
         self.surface.nearby(point)
     }
 
-    fn sample(&self, spacing: f32, take: &mut impl FnMut(&Point3<f32>)) {
-        self.points(spacing).iter().for_each(take);
+    fn sample(&self, spacing: f32, take: &mut impl FnMut(Option<&Point3<f32>>)) {
+        self.points(spacing).iter().map(Some).for_each(take);
     }
 }
 
@@ -107,10 +107,10 @@ mod tests {
             None
         }
 
-        fn sample(&self, spacing: f32, take: &mut impl FnMut(&Point3<f32>)) {
+        fn sample(&self, spacing: f32, take: &mut impl FnMut(Option<&Point3<f32>>)) {
             self.made.set(self.made.get() + 1);
             for step in 0..5_u8 {
-                take(&Point3::new(spacing * f32::from(step), 0.0, 0.0));
+                take(Some(&Point3::new(spacing * f32::from(step), 0.0, 0.0)));
             }
         }
     }
@@ -119,7 +119,9 @@ mod tests {
     fn points_of_a_spacing_are_made_once_and_stay_the_surfaces_own() {
         let collect = |surface: &SampledSurface<Line>, spacing| {
             let mut points = Vec::new();
-            surface.sample(spacing, &mut |point| points.push(point.x));
+            surface.sample(spacing, &mut |point| {
+                points.extend(point.map(|point| point.x));
+            });
             points
         };
         let surface = SampledSurface::new(Line { made: Cell::new(0) });

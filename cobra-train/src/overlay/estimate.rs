@@ -105,6 +105,9 @@ const BOX_SPACING: f32 = 0.05;
 fn edges(surface: &impl Surface, camera: &Camera, pose: &Pose) -> Vec<[Point2<f32>; 2]> {
     let mut bounds: Option<(Point3<f32>, Point3<f32>)> = None;
     surface.sample(BOX_SPACING * surface.radius(), &mut |point| {
+        let Some(point) = point else {
+            return;
+        };
         let (low, high) = bounds.unwrap_or((*point, *point));
         bounds = Some((low.inf(point), high.sup(point)));
     });

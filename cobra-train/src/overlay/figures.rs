@@ -20,6 +20,16 @@ pub(super) fn length(length: f32, unit: Unit) -> String {
     }
 }
 
+/// A threshold: two decimals, or two digits of a small one.
+fn two_digits(threshold: f32) -> String {
+    if threshold == 0.0 || threshold >= 0.1 {
+        format!("{threshold:.2}")
+    } else {
+        let digits = 1 - threshold.log10().floor() as i32;
+        format!("{threshold:.*}", digits.clamp(2, 6) as usize)
+    }
+}
+
 /// `part` of `whole` in percent.
 fn percent(part: u32, whole: u32) -> f32 {
     100.0 * part as f32 / whole.max(1) as f32
@@ -56,8 +66,9 @@ impl OverlayEstimate {
         };
         let thresholds = match self.thresholds {
             Some(thresholds) => format!(
-                "accept from {:.2}, reject below {:.2}",
-                thresholds.accept, thresholds.reject
+                "accept from {}, reject below {}",
+                two_digits(thresholds.accept),
+                two_digits(thresholds.reject)
             ),
             None => "none: not calibrated".to_owned(),
         };

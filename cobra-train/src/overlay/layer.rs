@@ -38,7 +38,7 @@ impl Patch {
         let across = (x - y).rem_euclid(period) < width;
         let dot = x.rem_euclid(px(5)) < px(2) && y.rem_euclid(px(5)) < px(2);
         match self {
-            Self::Residual(residual) => (diverging(residual / limit), 0.82),
+            Self::Residual(residual) => (diverging(residual / limit), 0.92),
             Self::Through if along || across => (PALE, 0.9),
             Self::Through => (diverging(1.0), 0.85),
             Self::Hidden if along => (HATCH, 0.85),
@@ -69,6 +69,11 @@ pub(super) struct Layer {
     patches: Vec<Option<(f32, Patch)>>,
 }
 
+/// Half the diagonal of a cell and a little more, so that no gap stays between neighbours.
+fn radius(view: View, residuals: &ResidualMap) -> f32 {
+    (0.85 * residuals.spacing * view.zoom()).max(1.5)
+}
+
 impl Layer {
     fn empty(view: View) -> Self {
         let (width, height) = view.size();
@@ -81,8 +86,7 @@ impl Layer {
     /// The surface that the pose says is visible, and what was seen of it.
     pub(super) fn of_surface(view: View, residuals: &ResidualMap) -> Self {
         let mut layer = Self::empty(view);
-        // Half the diagonal of a cell and a little more, so that no gap stays between neighbours.
-        let radius = (0.85 * residuals.spacing * view.zoom()).max(1.5);
+        let radius = radius(view, residuals);
         for point in &residuals.surface {
             let patch = match point.seen {
                 Seen::Surface { behind } => Patch::Residual(behind),
@@ -137,11 +141,17 @@ impl Layer {
         }
     }
 
-    /// The observed pixels, as the squares that they are.
-    pub(super) fn of_pixels(view: View, residuals: &ResidualMap) -> Self {
+    /// The observed pixels: those of a mask as the squares that they are, those of a silhouette as large as the
+    /// cells of the surface that they were looked up for.
+    pub(super) fn of_pixels(view: View, residuals: &ResidualMap, masked: bool) -> Self {
         let mut layer = Self::empty(view);
+        let radius = radius(view, residuals);
         for (pixel, residual) in &residuals.pixels {
             let patch = residual.map_or(Patch::Silent, |found| Patch::Residual(found.distance));
+            if !masked {
+                layer.disc(view.place(pixel.pixel()), radius, pixel.depth, patch);
+                continue;
+            }
             let [low, high] = [-0.5, 0.5].map(|half| {
                 let corner = pixel.pixel() + nalgebra::Vector2::repeat(half);
                 view.place(corner).map(|t| t.round())
@@ -151,6 +161,9 @@ impl Layer {
                     layer.set(column, row, pixel.depth, patch);
                 }
             }
+        }
+        if !masked {
+            layer.close(2.0 * radius);
         }
         layer
     }

@@ -48,8 +48,28 @@ fn swatch((left, top): (i32, i32), index: i32) -> (i32, i32) {
     (left + FIRST + column * NEXT.0, top + row * NEXT.1)
 }
 
-/// The words, once the page is painted; colours are strongest at `limit`.
-pub(super) fn draw(page: &Page<'_>, (left, top): (i32, i32), limit: f32, unit: Unit) -> Drawn {
+/// Where colours are strongest.
+#[derive(Clone, Copy)]
+pub(super) enum Strongest {
+    /// At a residual of this length.
+    Length(f32, Unit),
+    /// At so many σ_m, each estimate's own.
+    Sigmas(f32),
+}
+
+impl Strongest {
+    /// What a share of it, not negative, is.
+    fn share(self, share: f32) -> String {
+        match self {
+            Self::Length(limit, unit) => length(share * limit, unit),
+            Self::Sigmas(sigmas) if share * sigmas == 1.0 => "σ".to_owned(),
+            Self::Sigmas(sigmas) => format!("{}σ", share * sigmas),
+        }
+    }
+}
+
+/// The words, once the page is painted.
+pub(super) fn draw(page: &Page<'_>, (left, top): (i32, i32), strongest: Strongest) -> Drawn {
     let start = left + px(16);
     for share in [-1.0_f32, -0.5, 0.0, 0.5, 1.0] {
         let x = start + (0.5 * (share + 1.0) * BAR.0 as f32).round() as i32;
@@ -60,8 +80,8 @@ pub(super) fn draw(page: &Page<'_>, (left, top): (i32, i32), limit: f32, unit: U
         ))?;
         let words = match share {
             0.0 => "0".to_owned(),
-            share if share < 0.0 => format!("−{}", length(-share * limit, unit)),
-            share => length(share * limit, unit),
+            share if share < 0.0 => format!("−{}", strongest.share(-share)),
+            share => strongest.share(share),
         };
         page.draw(&Text::new(
             words,

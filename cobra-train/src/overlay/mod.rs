@@ -33,14 +33,13 @@ pub struct Overlay<'a> {
     pub estimates: &'a [OverlayEstimate],
     /// What the image is, in a line.
     pub subtitle: &'a str,
-    /// The residual at which colours are strongest; by default 2σ_m, of several estimates the least.
+    /// The residual at which colours are strongest; by default 2σ_m of each estimate.
     pub limit: Option<f32>,
 }
 
 impl Overlay<'_> {
-    fn limit(&self) -> f32 {
-        let noises = self.estimates.iter().map(|one| 2.0 * one.residuals.noise);
-        self.limit.unwrap_or(noises.fold(f32::INFINITY, f32::min))
+    fn limit(&self, estimate: &OverlayEstimate) -> f32 {
+        self.limit.unwrap_or(SIGMAS * estimate.residuals.noise)
     }
 }
 
@@ -64,6 +63,9 @@ pub fn draw(overlay: &Overlay<'_>) -> Result<RgbImage, PictureError> {
     drawn(&mut image).map_err(|cause| PictureError::Drawing(Box::new(cause)))?;
     Ok(image.reduced(SUPERSAMPLING as u32))
 }
+
+/// Residuals of so many σ_m have the strongest colours.
+const SIGMAS: f32 = 2.0;
 
 /// Width of the page, before it is reduced.
 const WIDTH: i32 = crate::demo::style::px(1600);

@@ -4,8 +4,9 @@ use super::backdrop::shown;
 use super::estimate::OverlayEstimate;
 use super::figures::{gauge, wrapped};
 use super::layer::Layer;
+use super::legend::Strongest;
 use super::view::View;
-use super::{MARGIN, Overlay, WIDTH, legend, on};
+use super::{MARGIN, Overlay, SIGMAS, WIDTH, legend, on};
 use crate::demo::RgbImage;
 use crate::demo::style::{Drawn, INK, PAPER, Page, QUIET, bold, px, seal, text};
 use nalgebra::Point2;
@@ -36,7 +37,7 @@ pub(super) fn draw(
     for estimate in estimates {
         let layer = Layer::of_surface(view, &estimate.residuals);
         let (red, green, blue) = estimate.verdict().colour().rgb();
-        layer.paint(&mut picture, overlay.limit(), 0.9);
+        layer.paint(&mut picture, overlay.limit(estimate), 0.9);
         layer.outline(&mut picture, [red, green, blue], px(2));
     }
     on(&mut picture, |page| labels(page, &view, estimates))?;
@@ -55,7 +56,11 @@ pub(super) fn draw(
             (MARGIN, px(66)),
             text(16, QUIET, HPos::Left, VPos::Center),
         ))?;
-        legend::draw(page, key, overlay.limit(), estimates[0].unit)?;
+        let strongest = match overlay.limit {
+            Some(limit) => Strongest::Length(limit, estimates[0].unit),
+            None => Strongest::Sigmas(SIGMAS),
+        };
+        legend::draw(page, key, strongest)?;
         list(page, floor - TOP, estimates)
     })
 }
@@ -64,6 +69,7 @@ pub(super) fn draw(
 fn labels(page: &Page<'_>, view: &View, estimates: &[OverlayEstimate]) -> Drawn {
     let (width, height) = view.size();
     let mut plates: Vec<[(i32, i32); 2]> = Vec::new();
+    let mut labels = Vec::new();
     let rim = Point2::new(width as f32 - 2.0, height as f32 - 2.0);
     for (index, estimate) in estimates.iter().enumerate() {
         let points = estimate.residuals.surface.iter();
@@ -102,9 +108,13 @@ fn labels(page: &Page<'_>, view: &View, estimates: &[OverlayEstimate]) -> Drawn 
             plate = plate.map(|(x, y)| (x, y + down));
         }
         plates.push(plate);
-        let top = plate[0].1;
+        labels.push((label, colour, style));
+    }
+    // Last, so that no other estimate's box goes through a label.
+    for (plate, (label, colour, style)) in plates.into_iter().zip(labels) {
+        let (left, top) = plate[0];
         page.draw(&Rectangle::new(plate, colour.filled()))?;
-        page.draw(&Text::new(label, (left + px(6), top + px(11)), style))?;
+        page.draw(&Text::new(label, (left + px(7), top + px(11)), style))?;
     }
     Ok(())
 }

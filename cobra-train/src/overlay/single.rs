@@ -4,6 +4,7 @@
 use super::backdrop::shown;
 use super::estimate::OverlayEstimate;
 use super::layer::Layer;
+use super::legend::Strongest;
 use super::lines::line;
 use super::view::View;
 use super::{MARGIN, Overlay, WIDTH, figures, legend, on};
@@ -33,6 +34,7 @@ pub(super) fn draw(
     let outline = estimate.outline();
     let close = View::around(outline.into_iter(), size, CLOSE as u32)
         .unwrap_or_else(|| View::all(size, CLOSE as u32));
+    let limit = overlay.limit(estimate);
     let (red, green, blue) = estimate.verdict().colour().rgb();
     let colour = [red, green, blue];
 
@@ -43,13 +45,13 @@ pub(super) fn draw(
 
     let mut surface = shown(photo, &close, 0.15, 0.25);
     let layer = Layer::of_surface(close, &estimate.residuals);
-    layer.paint(&mut surface, overlay.limit(), 1.0);
+    layer.paint(&mut surface, limit, 1.0);
     layer.outline(&mut surface, colour, px(3));
     on(&mut surface, |page| edges(page, &close, estimate, px(1)))?;
 
     let mut pixels = shown(photo, &close, 0.15, 0.25);
-    let observed = Layer::of_pixels(close, &estimate.residuals);
-    observed.paint(&mut pixels, overlay.limit(), 1.0);
+    let observed = Layer::of_pixels(close, &estimate.residuals, estimate.masked);
+    observed.paint(&mut pixels, limit, 1.0);
     layer.outline(&mut pixels, colour, px(3));
 
     let columns = [MARGIN, MARGIN + WHOLE + GAP, WIDTH - MARGIN - CLOSE];
@@ -82,7 +84,7 @@ pub(super) fn draw(
             nothing(page, columns[1])?;
         }
         figures::draw(page, (MARGIN, below), WHOLE, estimate)?;
-        legend::draw(page, key, overlay.limit(), estimate.unit)
+        legend::draw(page, key, Strongest::Length(limit, estimate.unit))
     })
 }
 

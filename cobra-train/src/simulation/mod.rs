@@ -98,7 +98,7 @@ pub fn simulate<S: Surface + Sync>(
 ) -> Result<Vec<SimulatedEstimate>, SimulationError> {
     let mut points = Vec::new();
     surface.sample(POINT_SPACING * surface.radius(), &mut |point| {
-        points.push(point.cast::<f64>());
+        points.extend(point.map(|point| point.cast::<f64>()));
     });
     let points = ModelPoints::new(points);
     let no_pose = |source| SimulationError::Pose {

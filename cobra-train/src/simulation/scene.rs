@@ -153,7 +153,9 @@ fn of_surface<S: Surface>(surface: &S, camera: &Camera, pose: &Pose) -> Vec<f32>
     let mut depths = vec![f32::INFINITY; width * height];
     let near = pose.to_camera(&surface.centre().into()).z - surface.radius();
     surface.sample(SPACING * near / FOCAL_LENGTH, &mut |point| {
-        let seen = pose.to_camera(point);
+        let Some(seen) = point.map(|point| pose.to_camera(point)) else {
+            return;
+        };
         let Some(pixel) = camera.project(&seen) else {
             return;
         };

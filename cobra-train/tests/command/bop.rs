@@ -1,6 +1,6 @@
 //! `cobra bop`: scores for a results file, and templates of a data set's objects.
 
-use crate::bop_scene::{dataset, png, results, row, simulated, words};
+use crate::bop_scene::{dataset, ply, png, results, row, simulated, words};
 use crate::run::{json, run, succeed};
 use serde_json::{Value, json};
 
@@ -153,4 +153,26 @@ fn templates_of_all_models_are_trained_and_what_is_no_mesh_is_left_out() {
     assert_eq!(template.name(), "obj_000001");
     assert!(template.depth().is_some());
     assert!(!scene.path("new/obj_000002.cobra").exists());
+}
+
+#[test]
+fn a_model_in_metres_is_warned_of() {
+    let scene = dataset();
+    let metres = ply().lines().fold(String::new(), |text, line| {
+        let numbers: Vec<f64> = line
+            .split(' ')
+            .filter_map(|word| word.parse().ok())
+            .collect();
+        match numbers[..] {
+            [x, y, z] => text + &format!("{} {} {}\n", x / 1e3, y / 1e3, z / 1e3),
+            _ => text + line + "\n",
+        }
+    });
+    scene.write("set/models/obj_000001.ply", metres);
+    let words = ["bop", "train", "--models", "@set/models", "-o", "@new"];
+    let outcome = succeed(scene.arguments(&words));
+    assert!(
+        outcome.stderr.contains("as of one in metres"),
+        "{outcome:?}"
+    );
 }

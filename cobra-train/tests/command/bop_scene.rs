@@ -55,7 +55,7 @@ pub(crate) fn set_cameras(scene: &Scene, camera: impl Fn(u32) -> Value) {
 }
 
 /// The scene's box as a PLY.
-fn ply() -> String {
+pub(crate) fn ply() -> String {
     let corners: Vec<String> = (0..8)
         .map(|i| {
             let pick = |axis: usize| [[10, 50], [-20, 40], [5, 85]][axis][i >> axis & 1];

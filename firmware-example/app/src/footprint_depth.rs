@@ -5,7 +5,6 @@ use cobra_infer::depth::{
     Cell, DepthCheck, DepthImage, DepthPixel, DepthReport, DepthSettings, DepthWords, Observed,
     TemplateSurface,
 };
-use cobra_infer::nalgebra::Point3;
 use cobra_infer::{Camera, Decision, Pose, Template};
 
 /// How the examples check: a depth buffer of 20² cells, 1,600 bytes, because it is to fit into the
@@ -17,7 +16,7 @@ pub const CELLS: usize = SETTINGS.cells();
 
 /// Loads the template, checks one pose, and reports.
 ///
-/// `alive` is called at least once every 64 pixels or points: the place to feed a watchdog.
+/// `alive` is called as [`DepthCheck::run`] says: the place to feed a watchdog.
 ///
 /// # Errors
 /// [`Refusal`].
@@ -37,10 +36,7 @@ pub fn load_and_check(
         Ok(template) => template,
         Err(error) => return Err(Refusal::Template(*error)),
     };
-    let [x, y, z] = template.centre();
-    let depth = pose.to_camera(&Point3::new(x, y, z)).z;
-    let noise = SETTINGS.noise.at(template.diameter(), depth);
-    let surface = TemplateSurface::<COMPONENTS>::new(template, noise.map_err(Refusal::Depth)?);
+    let surface = TemplateSurface::<COMPONENTS>::at_pose(template, &SETTINGS, pose);
     let surface = match &surface {
         Ok(surface) => surface,
         Err(error) => return Err(Refusal::Depth(*error)),

@@ -166,11 +166,8 @@ impl Asked<'_> {
         cells: &mut [Cell],
         board: &mut impl Board,
     ) -> Result<Taken, DepthError> {
-        let [x, y, z] = self.template.centre();
-        let depth = self.pose.to_camera(&Point3::new(x, y, z)).z;
-        let noise = CHECKED.noise.at(self.template.diameter(), depth)?;
         let surface = Counted {
-            surface: TemplateSurface::<COMPONENTS>::new(self.template, noise)?,
+            surface: TemplateSurface::<COMPONENTS>::at_pose(self.template, &CHECKED, self.pose)?,
             board: RefCell::new(board),
             samples: Slot::new([0; 2]),
             points: Slot::new(0),
@@ -257,11 +254,11 @@ impl<B: Board> Surface for Counted<'_, B> {
         self.surface.nearby(point)
     }
 
-    fn sample(&self, spacing: f32, take: &mut impl FnMut(&Point3<f32>)) {
+    fn sample(&self, spacing: f32, take: &mut impl FnMut(Option<&Point3<f32>>)) {
         let start = self.instructions();
         let mut count = 0;
         self.surface.sample(spacing, &mut |point| {
-            count += 1;
+            count += u32::from(point.is_some());
             take(point);
         });
         let taken = self.instructions().wrapping_sub(start);

@@ -17,6 +17,9 @@ use std::time::Instant;
 /// the one that it speaks of.
 const DIAMETER: f64 = 0.01;
 
+/// A model that is smaller than this, in mm, is hardly in mm.
+const SMALLEST_DIAMETER: f64 = 3.0;
+
 pub(super) fn run(arguments: &BopTrainArguments, terminal: &Terminal) -> Result<(), Failure> {
     let models = Models::open(&arguments.models)?;
     let mut objects = models.objects()?;
@@ -28,6 +31,8 @@ pub(super) fn run(arguments: &BopTrainArguments, terminal: &Terminal) -> Result<
     }
     if !arguments.objects.is_empty() {
         objects.clone_from(&arguments.objects);
+        objects.sort_unstable();
+        objects.dedup();
     }
     std::fs::create_dir_all(&arguments.output)
         .map_err(|error| Failure::Io(format!("{}: {error}", arguments.output.display())))?;
@@ -95,6 +100,12 @@ fn one(
     let template =
         Template::from_bytes(&trained.bytes).map_err(|error| Failure::template(&path, &error))?;
     let diameter = f64::from(template.diameter());
+    if diameter < SMALLEST_DIAMETER {
+        terminal.warn(&format!(
+            "{}: the model's diameter is {diameter:.3} mm, as of one in metres: BOP's are in mm",
+            source.display()
+        ));
+    }
     if let Ok(info) = models.info(object)
         && (info.diameter / diameter - 1.0).abs() > DIAMETER
     {
