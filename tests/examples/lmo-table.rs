@@ -164,27 +164,26 @@ fn run<S: Surface + Sync + Send>(
 }
 
 /// What is known of a scored row: whether it is right, and its error as a share of the diameter.
-fn known(scored: &[Scored], of: Score) -> impl Iterator<Item = (u32, Labelled, f64)> + '_ {
+fn known(scored: &[Scored], of: Score) -> impl Iterator<Item = (Labelled, f64)> + '_ {
     scored.iter().filter_map(move |row| {
         let outcome = row.outcome.as_ref().ok()?;
-        let truth = row.truth.as_ref()?;
+        let truth = row.known_truth()?;
         let errors = truth.errors()?;
         let labelled = Labelled {
             confidence: of(&outcome.report),
             right: truth.is_right(),
         };
-        let object = row.estimate.as_ref()?.obj_id;
-        Some((object, labelled, errors.error() / errors.diameter))
+        Some((labelled, errors.error() / errors.diameter))
     })
 }
 
 fn line(names: [&str; 3], scored: &[Scored], ends: &[usize], of: Score) {
     let area = |rows: &[Scored]| {
-        let labelled: Vec<Labelled> = known(rows, of).map(|(_, labelled, _)| labelled).collect();
+        let labelled: Vec<Labelled> = known(rows, of).map(|(labelled, _)| labelled).collect();
         Roc::new(&labelled).map_or(f64::NAN, |roc| roc.area)
     };
     let (scores, errors): (Vec<f64>, Vec<f64>) = known(scored, of)
-        .map(|(_, labelled, error)| (f64::from(labelled.confidence), error))
+        .map(|(labelled, error)| (f64::from(labelled.confidence), error))
         .unzip();
     let mut start = 0;
     let each: Vec<String> = ends
@@ -216,17 +215,17 @@ fn error_line(name: &str, scored: &[Scored]) -> String {
 fn threshold_lines(name: &str, scored: &[Scored]) -> Result<Vec<String>, Box<dyn Error>> {
     let mut lines = Vec::new();
     for (found_on, tried_on) in [(0, 1), (1, 0)] {
-        let found = calibrate(&of_objects(scored, &HALVES[found_on]), AIM)?;
-        let others = of_objects(scored, &HALVES[tried_on]);
+        let found = calibrate(&decided(scored, &HALVES[found_on]), AIM)?;
+        let others = decided(scored, &HALVES[tried_on]);
         lines.push(format!(
-            "| {name} | {} | {:.3} | {} | {:.1} % | {} | {} | {:.1} % |",
+            "| {name} | {} | {:.3} | {} | {:.1} | {} | {} | {:.1} |",
             listed(&HALVES[found_on]),
             found.accept,
             rate(found.false_accepts),
-            100.0 * found.true_accepts.share(),
+            found.true_accepts,
             listed(&HALVES[tried_on]),
-            rate(accepted(&others, found.accept, false)),
-            100.0 * accepted(&others, found.accept, true).share(),
+            rate(Rate::of_accepted(&others, found.accept, false)),
+            Rate::of_accepted(&others, found.accept, true),
         ));
     }
     Ok(lines)
@@ -257,8 +256,8 @@ fn simulated_lines<S: Surface + Sync>(
             .filter(|one| one.valid_pixels >= checked.settings.minimum_points);
         let labelled: Vec<Labelled> = judged.map(|one| one.labelled).collect();
         let accept = calibrate(&labelled, AIM)?.accept;
-        let own = of_objects(scored, &[*object]);
-        let rates = [false, true].map(|right| accepted(&own, accept, right));
+        let own = decided(scored, &[*object]);
+        let rates = [false, true].map(|right| Rate::of_accepted(&own, accept, right));
         for (sum, one) in all.iter_mut().zip(rates) {
             sum.count += one.count;
             sum.total += one.total;
@@ -275,36 +274,22 @@ fn simulated_lines<S: Surface + Sync>(
 
 fn simulated_line(name: &str, words: &[&str; 2], [wrong, right]: [Rate; 2]) -> String {
     let words = words.join(" | ");
-    let right = 100.0 * right.share();
-    format!("| {name} | {words} | {} | {right:.1} % |", rate(wrong))
+    format!("| {name} | {words} | {} | {right:.1} |", rate(wrong))
 }
 
-fn of_objects(scored: &[Scored], objects: &[u32]) -> Vec<Labelled> {
-    known(scored, CONFIDENCE)
-        .filter(|(object, ..)| objects.contains(object))
-        .map(|(_, labelled, _)| labelled)
-        .collect()
+/// The estimates of these objects that a threshold decides.
+fn decided(scored: &[Scored], objects: &[u32]) -> Vec<Labelled> {
+    let wanted = |row: &&Scored| {
+        row.estimate
+            .is_some_and(|one| objects.contains(&one.obj_id))
+    };
+    let of_objects = scored.iter().filter(wanted);
+    of_objects.filter_map(Scored::decided).collect()
 }
 
-/// The share of the right or of the wrong ones that reach a threshold.
-fn accepted(labelled: &[Labelled], threshold: f32, right: bool) -> Rate {
-    let of_kind = labelled.iter().filter(|labelled| labelled.right == right);
-    let accepted = of_kind.clone().filter(|one| one.confidence >= threshold);
-    Rate {
-        count: accepted.count(),
-        total: of_kind.count(),
-    }
-}
-
-/// A share with Wilson's interval, in percent.
+/// A share with Wilson's interval.
 fn rate(rate: Rate) -> String {
-    let interval = rate.interval();
-    format!(
-        "{:.2} % ({:.2} to {:.2})",
-        100.0 * rate.share(),
-        100.0 * interval.low,
-        100.0 * interval.high
-    )
+    format!("{rate} ({})", rate.interval())
 }
 
 fn listed(objects: &[u32]) -> String {

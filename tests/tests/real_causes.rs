@@ -7,13 +7,14 @@ use cobra_infer::depth::{
     Cause, Cell, Correction, DepthCheck, DepthPixel, DepthSettings, Observed, Surface,
     TemplateSurface,
 };
-use cobra_infer::{Camera, Pose, Template};
+use cobra_infer::{Camera, Template};
 use cobra_tests::data::real_data;
 use cobra_train::bop::dataset::{Annotation, Dataset};
 use cobra_train::bop::render::{DepthNoise, PlacedModel, RenderModel, SimulatedFrame, render};
 use cobra_train::depth::{observed, spread};
 use cobra_train::depth_image::DepthImage;
 use cobra_train::input::ImageSize;
+use cobra_train::pose::single_pose;
 use cobra_train::progress::Silent;
 use cobra_train::surface::Geometry;
 use cobra_train::train::{LARGEST_TEMPLATE, TrainOptions, train};
@@ -136,7 +137,7 @@ impl Scene {
         };
         let check = DepthCheck::new(&surface, &self.camera, &settings).unwrap();
         let mut cells = vec![Cell::EMPTY; settings.cells()];
-        let pose = to_pose(pose);
+        let pose = single_pose(pose).unwrap();
         let report = check
             .run(&pose, seen, depth, &mut cells, &mut || {})
             .unwrap();
@@ -164,15 +165,6 @@ impl Place {
         let translation = Translation3::from(self.pose.translation.vector * scale);
         Isometry3::from_parts(translation, self.pose.rotation)
     }
-}
-
-fn to_pose(pose: &Isometry3<f64>) -> Pose {
-    let rotation = pose.rotation.to_rotation_matrix();
-    let rows = rotation.matrix().transpose().cast::<f32>();
-    let mut r = [0.0; 9];
-    r.copy_from_slice(rows.as_slice());
-    let t = pose.translation.vector.cast::<f32>().into();
-    Pose::from_row_major_orthonormalised(r, t).unwrap()
 }
 
 fn name(cause: &Cause) -> &'static str {

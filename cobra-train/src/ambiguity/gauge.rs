@@ -3,9 +3,8 @@
 //! Owns the measure, ADD over some of the mesh's vertices, and the mean of motions. A motion M moves the
 //! object in its own frame: at the true pose T it leads to the pose TM.
 
-use crate::bop::score::Errors;
 use crate::bop::symmetry::Axis;
-use crate::pose::{add, nearest_pose};
+use crate::pose::{RIGHT, add, nearest_pose};
 use crate::surface::Mesh;
 use cobra_infer::Pose;
 use nalgebra::{Isometry3, Matrix3, Point3, UnitQuaternion, UnitVector3, Vector3};
@@ -40,7 +39,7 @@ impl Gauge {
 
     /// What separates a right pose from a wrong one.
     pub(super) fn limit(&self) -> f64 {
-        Errors::RIGHT * self.diameter
+        RIGHT * self.diameter
     }
 
     /// Whether the one is right where the other is the truth.
@@ -139,14 +138,6 @@ pub(super) fn twist(
         (along, real)
     };
     2.0 * libm::atan2(along, real)
-}
-
-/// A pose in double precision as the scorer has it; what the scorer makes of a rotation always is one.
-pub(super) fn single(pose: &Isometry3<f64>) -> Option<Pose> {
-    let matrix = pose.rotation.to_rotation_matrix();
-    let rows = std::array::from_fn(|i| matrix[(i / 3, i % 3)] as f32);
-    let [x, y, z] = pose.translation.vector.into();
-    Pose::from_row_major_orthonormalised(rows, [x as f32, y as f32, z as f32]).ok()
 }
 
 /// A pose of the scorer in double precision.

@@ -6,9 +6,10 @@
 //! 2004), of all views together, and of each view, because what decides may be hidden there.
 
 use super::AmbiguityError;
-use super::gauge::{Gauge, single, twist, upwards};
+use super::gauge::{Gauge, twist, upwards};
 use super::views::{Judge, Look, View, camera};
 use crate::bop::symmetry::Axis;
+use crate::pose::single_pose;
 use cobra_infer::depth::Surface;
 use nalgebra::{
     Isometry3, Matrix6, Point3, SymmetricEigen, Translation3, UnitVector3, Vector3, Vector6,
@@ -208,7 +209,7 @@ pub(super) fn families<S: Surface + Sync>(
 
 /// Σ JJᵀ/N over what a view shows, J = (n, (P − C) × n/D) as refinement has it.
 fn products<S: Surface + Sync>(judge: &Judge<'_, S>, gauge: &Gauge, view: &View) -> Matrix6<f64> {
-    let Some(pose) = single(&view.truth) else {
+    let Ok(pose) = single_pose(&view.truth) else {
         return Matrix6::zeros();
     };
     let camera = camera();

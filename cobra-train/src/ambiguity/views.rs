@@ -2,11 +2,11 @@
 //!
 //! Owns the camera, the true poses, and what a confidence must reach there to be as good as the truth's.
 
-use super::gauge::single;
 use super::{AmbiguityError, Masks, SearchOptions};
 use crate::bop::render::{DepthNoise, PlacedModel, RenderModel, render};
 use crate::depth_image::DepthImage;
 use crate::input::ImageSize;
+use crate::pose::single_pose;
 use crate::random::{Purpose, stream};
 use crate::surface::{Mesh, fibonacci_sphere};
 use cobra_infer::Camera;
@@ -185,7 +185,7 @@ impl<'s, S: Surface + Sync> Judge<'s, S> {
         motion: &Isometry3<f64>,
         room: &mut Room,
     ) -> Result<Option<DepthReport>, AmbiguityError> {
-        let Some(pose) = single(&(view.truth * motion)) else {
+        let Ok(pose) = single_pose(&(view.truth * motion)) else {
             return Ok(None);
         };
         let (check, pixels) = match look {

@@ -7,6 +7,7 @@
 //! the check against depth ([`cobra_infer::depth`]).
 
 pub mod dataset;
+mod objects;
 pub mod render;
 pub mod results;
 pub mod score;

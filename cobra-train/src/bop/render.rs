@@ -60,6 +60,11 @@ const NOTHING: Seen = Seen {
     object: None,
 };
 
+impl DepthNoise {
+    /// The standard deviation of simulated depth unless somebody says otherwise, in millimetres.
+    pub const MILLIMETRES: f64 = 1.5;
+}
+
 impl RenderModel {
     /// Prepares a mesh for rendering.
     #[must_use]

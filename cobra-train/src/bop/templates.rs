@@ -1,11 +1,14 @@
 //! A folder of templates: `obj_000001.cobra`, …, as `cobra bop train` writes them.
 
+use super::objects::{listed, objects_in};
 use super::score::{Checked, Surfaces};
+use crate::depth::template_surface;
 use crate::train::LARGEST_TEMPLATE;
 use cobra_infer::depth::{DepthError, DepthSettings, Noise, TemplateSurface};
 use cobra_infer::template::DecodedTerm;
 use cobra_infer::{Template, TemplateError, Unit};
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -19,6 +22,19 @@ pub enum TemplateFileError {
         path: PathBuf,
         /// What the system said.
         source: std::io::Error,
+    },
+    /// There is no template of an object.
+    #[error(
+        "{}: expected obj_{object:06}.cobra for poses of object {object}, found templates of {known}",
+        folder.display()
+    )]
+    UnknownObject {
+        /// The templates' folder.
+        folder: PathBuf,
+        /// The object.
+        object: u32,
+        /// The objects that have one.
+        known: String,
     },
     /// It is no template.
     #[error("{}: {source}", path.display())]
@@ -69,6 +85,13 @@ impl TemplateFile {
         let path = template_path(folder, object);
         let bytes = match std::fs::read(&path) {
             Ok(bytes) => bytes,
+            Err(source) if source.kind() == ErrorKind::NotFound && folder.is_dir() => {
+                return Err(TemplateFileError::UnknownObject {
+                    folder: folder.to_owned(),
+                    object,
+                    known: listed(&objects_in(folder, "cobra").unwrap_or_default()),
+                });
+            }
             Err(source) => return Err(TemplateFileError::Io { path, source }),
         };
         let template = match Template::from_bytes(&bytes) {
@@ -157,12 +180,8 @@ fn surface<'t>(
     if let Some(share) = noise_share {
         settings.noise = Noise::Share(share);
     }
-    // The depth matters to a sensor's noise alone, and templates record a share.
-    let surface = settings
-        .noise
-        .at(template.diameter(), 0.0)
-        .and_then(|noise| TemplateSurface::new(template, noise))
-        .map_err(|source| TemplateFileError::Depth {
+    let surface =
+        template_surface(template, &settings).map_err(|source| TemplateFileError::Depth {
             path: path.to_owned(),
             source,
         })?;

@@ -16,18 +16,19 @@ mod thresholds;
 
 pub use plot::{PlotError, precision_recall_svg, reliability_svg, roc_svg};
 pub use precision_recall::{PrecisionRecall, PrecisionRecallPoint};
-pub use rate::{Interval, Rate};
+pub use rate::{Interval, Rate, percent};
 pub use reliability::{Bin, reliability};
-pub use roc::{Roc, RocPoint};
+pub use roc::{Roc, RocPoint, area_under_roc};
 pub use thresholds::{Aim, Thresholds, calibrate};
 
 use sweep::sweep;
 
-/// The confidence of an estimate of which somebody knows whether it is right.
+/// The confidence of an estimate of which somebody knows whether it is right, or as an `f64` another score of
+/// its.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Labelled {
-    /// Its confidence, from 0 to 1.
-    pub confidence: f32,
+pub struct Labelled<C = f32> {
+    /// Its confidence, from 0 to 1; the larger a score, the better.
+    pub confidence: C,
     /// Whether it is right.
     pub right: bool,
 }
@@ -55,7 +56,7 @@ pub enum CalibrateError {
     /// show the share that is aimed at.
     #[error(
         "{found} {kind} estimates show a share of at best {} % (the upper bound of the 95 % interval of \
-         none in {found}): for {} % there must be at least {needed}", percent(*provable), percent(*aim)
+         none in {found}): for {} % there must be at least {needed}", percent_above(*provable), percent(*aim)
     )]
     TooFew {
         /// `wrong` or `right`.
@@ -105,7 +106,7 @@ pub enum CalibrateError {
     },
 }
 
-/// A share as a number of percent with the digits it needs.
-fn percent(share: f64) -> f64 {
+/// Hundredths of a percent that are not less than a share: what can be shown must not seem less than it is.
+fn percent_above(share: f64) -> f64 {
     (share * 1e4).ceil() / 1e2
 }

@@ -1,9 +1,14 @@
 //! Shares that were counted, and what they say of the share behind them.
 
+use super::Labelled;
 use cobra_infer::template::MeasuredShare;
+use std::fmt;
 
 /// The 97.5 % quantile of the normal distribution: 95 % lie between it and its negative.
 const Z: f64 = 1.959_963_984_540_054;
+
+/// Digits of a percentage.
+const DIGITS: usize = 2;
 
 /// So many of so many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +28,42 @@ pub struct Interval {
     pub high: f64,
 }
 
+impl fmt::Display for Rate {
+    /// The share in percent, with two digits unless the format asks for others: `0.97 %`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let digits = f.precision().unwrap_or(DIGITS);
+        write!(f, "{:.digits$} %", 100.0 * self.share())
+    }
+}
+
+impl fmt::Display for Interval {
+    /// Both bounds in percent, with two digits unless the format asks for others: `0.47 to 1.99 %`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let digits = f.precision().unwrap_or(DIGITS);
+        let [low, high] = [self.low, self.high].map(|bound| 100.0 * bound);
+        write!(f, "{low:.digits$} to {high:.digits$} %")
+    }
+}
+
+/// A share that somebody stated as a number of percent, without what the product rounds: 0.07 is 7 and not
+/// 7.000000000000001.
+#[must_use]
+pub fn percent(share: f64) -> f64 {
+    (share * 1e10).round() / 1e8
+}
+
 impl Rate {
+    /// Of the right or of the wrong ones among `labelled` those that reach a threshold.
+    #[must_use]
+    pub fn of_accepted(labelled: &[Labelled], threshold: f32, right: bool) -> Self {
+        let of_kind = labelled.iter().filter(|one| one.right == right);
+        let accepted = of_kind.clone().filter(|one| one.confidence >= threshold);
+        Self {
+            count: accepted.count(),
+            total: of_kind.count(),
+        }
+    }
+
     /// count/total; 0 of none.
     #[must_use]
     pub fn share(self) -> f64 {
@@ -115,6 +155,44 @@ mod tests {
             for (bound, expected) in interval(count, total).into_iter().zip(expected) {
                 assert!((bound - expected).abs() < 6e-5, "{count}/{total}: {bound}");
             }
+        }
+    }
+
+    #[test]
+    fn shares_are_said_in_percent_with_two_digits_or_as_many_as_are_asked_for() {
+        let rate = Rate {
+            count: 7,
+            total: 720,
+        };
+        assert_eq!(rate.to_string(), "0.97 %");
+        assert_eq!(format!("{rate:.1}"), "1.0 %");
+        assert_eq!(rate.interval().to_string(), "0.47 to 1.99 %");
+        assert_eq!(format!("{:.0}", rate.interval()), "0 to 2 %");
+    }
+
+    #[test]
+    fn what_reaches_a_threshold_is_counted_of_each_kind() {
+        let labelled = [(0.5, true), (0.4, true), (0.5, false), (0.6, false)];
+        let labelled = labelled.map(|(confidence, right)| Labelled { confidence, right });
+        let counts = [true, false].map(|right| Rate::of_accepted(&labelled, 0.5, right).count);
+        assert_eq!(counts, [1, 2]);
+        assert_eq!(
+            Rate::of_accepted(&labelled, 0.7, true),
+            Rate { count: 0, total: 2 }
+        );
+    }
+
+    #[test]
+    fn a_stated_share_is_the_percent_that_was_meant() {
+        for (share, said) in [
+            (0.07, "7"),
+            (0.14, "14"),
+            (0.29, "29"),
+            (0.005, "0.5"),
+            (0.000_05, "0.005"),
+            (1e-7, "0.00001"),
+        ] {
+            assert_eq!(percent(share).to_string(), said);
         }
     }
 

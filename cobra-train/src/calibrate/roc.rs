@@ -1,7 +1,7 @@
 //! The receiver operating characteristic: what is accepted of the right estimates against what is of the
 //! wrong ones, over all thresholds.
 
-use super::sweep::{sweep, totals};
+use super::sweep::{Step, sweep, totals};
 use super::{Labelled, Rate};
 
 /// A threshold's rates.
@@ -52,20 +52,33 @@ impl Roc {
                 .iter()
                 .map(|step| point(step.confidence, step.wrong, step.right)),
         );
-        // Twice the area in units of a pair, whole numbers: nothing is rounded but the division.
-        let twice: u64 = points
-            .windows(2)
-            .map(|pair| {
-                let width = pair[1].false_accepts.count - pair[0].false_accepts.count;
-                let heights = pair[0].true_accepts.count + pair[1].true_accepts.count;
-                width as u64 * heights as u64
-            })
-            .sum();
         Some(Self {
             points,
-            area: twice as f64 / (2 * wrong as u64 * right as u64) as f64,
+            area: area(&steps)?,
         })
     }
+}
+
+/// [`Roc::area`] alone, of scores in single or double precision; `None` without a wrong or without a right
+/// estimate.
+#[must_use]
+pub fn area_under_roc<C: Copy + PartialEq + Into<f64>>(labelled: &[Labelled<C>]) -> Option<f64> {
+    area(&sweep(labelled))
+}
+
+fn area<C>(steps: &[Step<C>]) -> Option<f64> {
+    let (wrong, right) = totals(steps);
+    if wrong == 0 || right == 0 {
+        return None;
+    }
+    // Twice the area in units of a pair, whole numbers: nothing is rounded but the division.
+    let (mut twice, mut before) = (0_u64, (0, 0));
+    for step in steps {
+        let (width, heights) = (step.wrong - before.0, step.right + before.1);
+        twice += width as u64 * heights as u64;
+        before = (step.wrong, step.right);
+    }
+    Some(twice as f64 / (2 * wrong as u64 * right as u64) as f64)
 }
 
 #[cfg(test)]
@@ -112,6 +125,28 @@ mod tests {
             let area = Roc::new(&labelled).map(|roc| roc.area);
             let kinds = [true, false].map(|right| labelled.iter().any(|one| one.right == right));
             assert_eq!(area, (kinds == [true; 2]).then(|| mann_whitney(&labelled)));
+        }
+    }
+
+    #[test]
+    fn scores_in_double_precision_that_single_precision_would_merge_or_overflow_are_told_apart() {
+        let near = 1.0 + f64::EPSILON;
+        for [low, high] in [[1.0, near], [1e300, 2e300], [-2e300, -1e300]] {
+            let apart = [
+                Labelled {
+                    confidence: high,
+                    right: true,
+                },
+                Labelled {
+                    confidence: low,
+                    right: false,
+                },
+            ];
+            assert_eq!(area_under_roc(&apart), Some(1.0));
+        }
+        for labelled in lists() {
+            let area = Roc::new(&labelled).map(|roc| roc.area);
+            assert_eq!(area_under_roc(&labelled), area);
         }
     }
 

@@ -6,9 +6,9 @@ use super::Labelled;
 
 /// What a threshold at a confidence that occurs accepts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Step {
+pub(super) struct Step<C = f32> {
     /// The confidence.
-    pub(super) confidence: f32,
+    pub(super) confidence: C,
     /// Wrong estimates of at least this confidence.
     pub(super) wrong: usize,
     /// Right ones.
@@ -16,9 +16,10 @@ pub(super) struct Step {
 }
 
 /// A step for each confidence that occurs, from the highest down. The last one has accepted all.
-pub(super) fn sweep(labelled: &[Labelled]) -> Vec<Step> {
+pub(super) fn sweep<C: Copy + PartialEq + Into<f64>>(labelled: &[Labelled<C>]) -> Vec<Step<C>> {
     let mut sorted = labelled.to_vec();
-    sorted.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
+    let number = |estimate: &Labelled<C>| -> f64 { estimate.confidence.into() };
+    sorted.sort_by(|a, b| number(b).total_cmp(&number(a)));
     let (mut wrong, mut right) = (0, 0);
     sorted
         .chunk_by(|a, b| a.confidence == b.confidence)
@@ -36,6 +37,6 @@ pub(super) fn sweep(labelled: &[Labelled]) -> Vec<Step> {
 }
 
 /// How many wrong and how many right estimates there are.
-pub(super) fn totals(steps: &[Step]) -> (usize, usize) {
+pub(super) fn totals<C>(steps: &[Step<C>]) -> (usize, usize) {
     steps.last().map_or((0, 0), |last| (last.wrong, last.right))
 }

@@ -253,6 +253,14 @@ mod tests {
             "20 wrong estimates show a share of at best 16.12 % (the upper bound of the 95 % interval \
              of none in 20): for 10 % there must be at least 35"
         );
+        for (share, said) in [(0.07, "for 7 %"), (0.000_05, "for 0.005 %")] {
+            let aim = Aim {
+                false_accepts: share,
+                ..AIM
+            };
+            let error = calibrate(&labelled, aim).unwrap_err().to_string();
+            assert!(error.contains(said), "{error}");
+        }
         labelled.truncate(20);
         labelled.extend(of(false, [0.2; 20]));
         let error = calibrate(&labelled, AIM).unwrap_err().to_string();

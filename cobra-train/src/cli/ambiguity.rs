@@ -10,14 +10,14 @@ use super::outputs;
 use super::report::JsonTarget;
 use super::template_file;
 use super::terminal::Terminal;
-use cobra_infer::depth::{DepthSettings, TemplateSurface};
+use cobra_infer::depth::DepthSettings;
 use cobra_infer::template::DecodedTerm;
 use cobra_infer::{Template, Unit};
 use cobra_train::ambiguity::{AmbiguityError, SearchOptions, find_ambiguities};
 use cobra_train::bop::dataset::read_model_info;
 use cobra_train::bop::symmetry::Symmetries;
-use cobra_train::surface::{Mesh, read_mesh};
-use cobra_train::train::LARGEST_TEMPLATE;
+use cobra_train::depth::template_surface;
+use cobra_train::surface::read_mesh;
 use document::Found;
 use std::path::Path;
 
@@ -45,7 +45,8 @@ pub(super) fn run(arguments: &AmbiguityArguments, terminal: &Terminal) -> Result
         seed: arguments.seed,
         ..SearchOptions::new(settings)
     };
-    let ambiguities = surface(&template, &mesh, &settings)
+    let ambiguities = template_surface(&template, &settings)
+        .map_err(AmbiguityError::from)
         .and_then(|surface| {
             find_ambiguities(&mesh, surface, symmetries.as_ref(), &options, terminal)
         })
@@ -89,19 +90,5 @@ fn symmetries(
             template.unit().symbol()
         )));
     }
-    match read_model_info(path, object) {
-        Ok(info) => Ok(Some(info.symmetries)),
-        Err(error) if error.is_io() => Err(Failure::Io(error.to_string())),
-        Err(error) => Err(Failure::BadInput(error.to_string())),
-    }
-}
-
-/// The template with the noise that its own share of the diameter makes.
-fn surface<'t>(
-    template: &'t Template<'t>,
-    mesh: &Mesh,
-    settings: &DepthSettings,
-) -> Result<TemplateSurface<'t, LARGEST_TEMPLATE>, AmbiguityError> {
-    let noise = settings.noise.at(mesh.diameter() as f32, 0.0)?;
-    Ok(TemplateSurface::new(template, noise)?)
+    Ok(Some(read_model_info(path, object)?.symmetries))
 }

@@ -251,7 +251,7 @@ pub(crate) struct ScoreArguments {
     pub(crate) sigma_hat: Option<f32>,
 
     /// Standard deviation of the measurement in mm, added to the template's in quadrature
-    #[arg(long, value_name = "MM", value_parser = not_negative, default_value_t = 0.0)]
+    #[arg(long, value_name = "MM", value_parser = not_negative::<f32>, default_value_t = 0.0)]
     pub(crate) noise: f32,
 
     /// Tolerance in mm that the threshold stands for [default: 1 % of the object's diameter]

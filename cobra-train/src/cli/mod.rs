@@ -21,6 +21,7 @@ mod outputs;
 mod overlay;
 mod report;
 mod score;
+mod sources;
 mod template_file;
 mod terminal;
 mod train;

@@ -8,8 +8,10 @@ mod mesh;
 mod pixels;
 mod residual;
 mod sampled;
+mod template;
 
 pub use mesh::MeshSurface;
-pub use pixels::{observed, spread};
+pub use pixels::{observed, spread, valid_pixels};
 pub use residual::ResidualMap;
 pub use sampled::SampledSurface;
+pub use template::template_surface;

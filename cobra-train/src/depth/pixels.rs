@@ -1,8 +1,8 @@
-//! From the pixels of a mask to those that a pose is checked with.
+//! From the pixels of a mask to those that a pose is checked with, and that say something of it.
 
 use crate::depth_image::DepthImage;
 use crate::pixel_mask::PixelMask;
-use cobra_infer::depth::DepthPixel;
+use cobra_infer::depth::{DepthPixel, DepthReport};
 
 /// The pixels of a mask that have a depth, row by row.
 #[must_use]
@@ -24,4 +24,11 @@ pub fn spread(pixels: &[DepthPixel], most: usize) -> Vec<DepthPixel> {
     (0..count)
         .map(|i| pixels[i * pixels.len() / count])
         .collect()
+}
+
+/// On how many pixels or points of the surface a report rests, whichever are fewer: what
+/// [`cobra_infer::depth::DepthSettings::minimum_points`] is compared with.
+#[must_use]
+pub fn valid_pixels(report: &DepthReport) -> u32 {
+    report.pixels.min(report.judged)
 }

@@ -34,6 +34,8 @@ pub struct ScoredEstimate {
     pub confidence: f32,
     /// Pixels that it rests on.
     pub valid_pixels: u32,
+    /// With fewer of them the confidence was 0 whatever they said; `None` where the report does not say.
+    pub minimum_points: Option<u32>,
 }
 
 /// Why a file is no such report.
@@ -70,8 +72,8 @@ pub enum ReadReportError {
 }
 
 /// Reads `{"dataset": {"name": …}, "estimates": [{"row": 2, "obj_id": 1, "confidence": 0.83,
-/// "valid_pixels": 412, "truth": {"right": true}}, …]}`; other keys are ignored. A confidence may be
-/// `null` or missing, and so may the truth.
+/// "valid_pixels": 412, "minimum_points": 10, "truth": {"right": true}}, …]}`; other keys are ignored. A
+/// confidence may be `null` or missing, and so may the truth; `minimum_points` may be missing.
 ///
 /// # Errors
 /// [`ReadReportError`] names the file and the place in it.
@@ -119,14 +121,21 @@ fn estimate(place: &str, entry: &Value) -> Result<ReportedEstimate, Misfit> {
             .as_u64()
             .ok_or_else(|| misfit(key, "a whole number"))
     };
+    let pixels = |key: &str| {
+        let number = whole(key)?;
+        u32::try_from(number).map_err(|_| misfit(key, "a number of pixels"))
+    };
     let scored = match at("confidence") {
         Value::Null => None,
         confidence => Some(ScoredEstimate {
             confidence: to_f32(confidence)
                 .filter(|confidence| (0.0..=1.0).contains(confidence))
                 .ok_or_else(|| misfit("confidence", "a number from 0 to 1, or null"))?,
-            valid_pixels: u32::try_from(whole("valid_pixels")?)
-                .map_err(|_| misfit("valid_pixels", "a number of pixels"))?,
+            valid_pixels: pixels("valid_pixels")?,
+            minimum_points: match at("minimum_points") {
+                Value::Null => None,
+                _ => Some(pixels("minimum_points")?),
+            },
         }),
     };
     let right = match at("truth") {
@@ -152,7 +161,7 @@ mod tests {
 
     const GOOD: &str = r#"{"dataset": {"name": "lmo"}, "estimates": [
         {"row": 2, "scene_id": 2, "im_id": 3, "obj_id": 1, "own_score": 0.5, "confidence": 0.83,
-         "valid_pixels": 412, "truth": {"error_mm": 4.1, "diameter_mm": 102.1, "right": true}},
+         "valid_pixels": 412, "minimum_points": 10, "truth": {"error_mm": 4.1, "diameter_mm": 102.1, "right": true}},
         {"row": 3, "obj_id": 5, "confidence": null},
         {"row": 4, "obj_id": 5, "confidence": 0, "valid_pixels": 0}]}"#;
 
@@ -173,11 +182,13 @@ mod tests {
         let scored = ScoredEstimate {
             confidence: 0.83,
             valid_pixels: 412,
+            minimum_points: Some(10),
         };
         assert_eq!((first.scored, first.right), (Some(scored), Some(true)));
         assert_eq!((first.row, first.object), (2, 1));
         assert_eq!((second.scored, second.right), (None, None));
         assert_eq!(third.scored.map(|scored| scored.confidence), Some(0.0));
+        assert_eq!(third.scored.map(|scored| scored.minimum_points), Some(None));
         assert_eq!(read(r#"{"estimates": []}"#).unwrap().dataset, None);
     }
 
@@ -199,6 +210,11 @@ mod tests {
                 "412",
                 "4294967296",
                 "estimates[0].valid_pixels: expected a number of pixels",
+            ),
+            (
+                "\"minimum_points\": 10",
+                "\"minimum_points\": 0.5",
+                "estimates[0].minimum_points: expected a whole number, found 0.5",
             ),
             (
                 "\"obj_id\": 5",

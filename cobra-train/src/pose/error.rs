@@ -7,6 +7,10 @@ use super::ModelPoints;
 use cobra_infer::Camera;
 use nalgebra::{Isometry3, Matrix3, Point2, Point3};
 
+/// Right is what is off by less than this share of the object's diameter, in ADD or of symmetric objects in ADD-S
+/// (S. Hinterstoisser et al., the source of [`add`]).
+pub const RIGHT: f64 = 0.1;
+
 /// ADD: the mean distance between the model's points in the estimated and in the true pose
 /// (S. Hinterstoisser et al., Model based training, detection and pose estimation of texture-less
 /// 3D objects, ACCV 2012), in the points' unit; 0 without points.

@@ -13,9 +13,11 @@
 mod scene;
 
 use crate::calibrate::Labelled;
-use crate::pose::{ModelPoints, add, add_s, disturb};
+use crate::depth::valid_pixels;
+use crate::pose::{ModelPoints, RIGHT, add, add_s, disturb, single_pose};
 use crate::random::{Purpose, stream};
 use crate::surface::Mesh;
+use cobra_infer::PoseError;
 use cobra_infer::depth::{Cell, DepthCheck, DepthError, DepthSettings, Observed, Surface};
 use nalgebra::{Isometry3, Point3};
 use rand::RngExt;
@@ -28,9 +30,6 @@ const ESTIMATES_PER_SCENE: usize = 5;
 /// Sizes of errors, in diameters.
 const SMALLEST_ERROR: f64 = 0.01;
 const LARGEST_ERROR: f64 = 1.0;
-
-/// Right is what is off by less than this share of the diameter, as for [`crate::bop::score::Errors`].
-const RIGHT: f64 = crate::bop::score::Errors::RIGHT;
 
 /// Points that errors are measured on lie this share of the object's radius apart.
 const POINT_SPACING: f32 = 0.1;
@@ -62,31 +61,58 @@ pub struct SimulatedEstimate {
     pub error: f64,
 }
 
+/// Why nothing could be simulated.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum SimulationError {
+    /// A setting is out of its range.
+    #[error("{0}")]
+    Check(DepthError),
+    /// The object is so large that single precision does not hold its poses.
+    #[error("a simulated pose of an object of diameter {diameter:e}: {source}")]
+    Pose {
+        /// The object's diameter.
+        diameter: f32,
+        /// What is wrong with the pose.
+        source: PoseError,
+    },
+}
+
+impl From<DepthError> for SimulationError {
+    fn from(error: DepthError) -> Self {
+        Self::Check(error)
+    }
+}
+
 /// Simulates estimates of a surface; `mesh` is what the camera sees, in the same unit. Without one it is
 /// the surface itself, which then has no error of its own.
 ///
 /// The same numbers whatever the number of threads.
 ///
 /// # Errors
-/// [`DepthError`] where a setting is out of its range.
+/// [`SimulationError`]: a setting is out of its range, or the object too large for single precision.
 pub fn simulate<S: Surface + Sync>(
     surface: &S,
     mesh: Option<&Mesh>,
     settings: &DepthSettings,
     simulation: &Simulation,
-) -> Result<Vec<SimulatedEstimate>, DepthError> {
+) -> Result<Vec<SimulatedEstimate>, SimulationError> {
     let mut points = Vec::new();
     surface.sample(POINT_SPACING * surface.radius(), &mut |point| {
         points.extend(point.map(|point| point.cast::<f64>()));
     });
     let points = ModelPoints::new(points);
+    let no_pose = |source| SimulationError::Pose {
+        diameter: surface.diameter(),
+        source,
+    };
     let model = mesh.map(crate::bop::render::RenderModel::new);
     let scenes = simulation.estimates.div_ceil(ESTIMATES_PER_SCENE);
-    let scored: Result<Vec<Vec<SimulatedEstimate>>, DepthError> = (0..scenes)
+    let scored: Result<Vec<Vec<SimulatedEstimate>>, SimulationError> = (0..scenes)
         .into_par_iter()
         .map(|index| {
             let mut rng = stream(simulation.seed, Purpose::SimulatedScenes, index as u64);
-            let scene = Scene::draw(surface, model.as_ref(), simulation.noise, &mut rng);
+            let scene = Scene::draw(surface, model.as_ref(), simulation.noise, &mut rng)
+                .map_err(no_pose)?;
             let check = DepthCheck::new(surface, scene.camera(), settings)?;
             let mask = simulation.masked.then(|| scene.mask());
             let observed = match &mask {
@@ -104,7 +130,7 @@ pub fn simulate<S: Surface + Sync>(
                     let centre = Point3::from(surface.centre()).cast::<f64>();
                     let radius = f64::from(surface.radius());
                     let estimate = disturb(scene.truth(), &centre, radius, size, &mut rng);
-                    let pose = scene::to_pose(&estimate);
+                    let pose = single_pose(&estimate).map_err(no_pose)?;
                     let report =
                         check.run(&pose, observed, scene.depth(), &mut cells, &mut || {})?;
                     let error = error(&points, scene.truth(), &estimate, simulation.symmetric);
@@ -113,7 +139,7 @@ pub fn simulate<S: Surface + Sync>(
                             confidence: report.confidence,
                             right: error < RIGHT * f64::from(surface.diameter()),
                         },
-                        valid_pixels: report.pixels.min(report.judged),
+                        valid_pixels: valid_pixels(&report),
                         error,
                     })
                 })
@@ -198,6 +224,26 @@ mod tests {
             assert!((50..120).contains(&right), "{right}");
             let area = crate::calibrate::Roc::new(&labelled).unwrap().area;
             assert!(area > 0.93, "masked {masked}: {area}");
+        }
+    }
+
+    #[test]
+    fn an_object_too_large_for_single_precision_is_an_error() {
+        let part = part();
+        let huge = 1e38 / part.diameter();
+        let vertices = part.vertices().iter().map(|vertex| vertex * huge);
+        let mesh = Mesh::new(vertices.collect(), part.triangles().to_vec()).unwrap();
+        let surface = MeshSurface::new(&mesh, 1e36, 0);
+        for seen in [None, Some(&mesh)] {
+            for masked in [true, false] {
+                let settings = DepthSettings::DEFAULT;
+                let found = simulate(&surface, seen, &settings, &simulation(masked));
+                let error = found.unwrap_err().to_string();
+                assert!(
+                    error.starts_with("a simulated pose of an object of diameter 1"),
+                    "{error}"
+                );
+            }
         }
     }
 

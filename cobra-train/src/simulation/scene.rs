@@ -1,12 +1,15 @@
 //! One simulated scene: the object, what it stands before and behind, and the depth that a camera sees.
 
 use crate::bop::render::{PlacedModel, RenderModel, render};
+use crate::bop::score::ScoreOptions;
 use crate::depth_image::DepthImage;
 use crate::input::ImageSize;
+use crate::pixel_mask::PixelMask;
+use crate::pose::single_pose;
 use crate::random::normal;
 use cobra_infer::depth::{DepthPixel, Surface};
-use cobra_infer::{Camera, Pose};
-use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use cobra_infer::{Camera, Pose, PoseError};
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion};
 use rand::{Rng, RngExt};
 
 const SIZE: ImageSize = ImageSize {
@@ -37,7 +40,7 @@ pub(super) struct Scene {
     camera: Camera,
     truth: Isometry3<f64>,
     depth: DepthImage,
-    shown: Vec<bool>,
+    shown: PixelMask,
 }
 
 impl Scene {
@@ -46,7 +49,7 @@ impl Scene {
         model: Option<&RenderModel>,
         noise: f64,
         rng: &mut impl Rng,
-    ) -> Self {
+    ) -> Result<Self, PoseError> {
         let camera = Camera::new(FOCAL_LENGTH, FOCAL_LENGTH, 319.5, 239.5)
             .expect("positive focal lengths make a camera");
         let diameter = f64::from(surface.diameter());
@@ -69,7 +72,7 @@ impl Scene {
                     .millimetres()
                     .to_vec()
             }
-            None => of_surface(surface, &camera, &truth),
+            None => of_surface(surface, &camera, &single_pose(&truth)?),
         };
         let background = distance + diameter * rng.random_range(BACKGROUND);
         let wall = Wall::draw(surface, distance, diameter, rng);
@@ -87,12 +90,12 @@ impl Scene {
             };
             depths.push((exact + noise * normal(rng)).max(0.0) as f32);
         }
-        Self {
+        Ok(Self {
             camera,
             truth,
             depth: DepthImage::new(SIZE, depths),
-            shown,
-        }
+            shown: PixelMask::new(SIZE, shown),
+        })
     }
 
     pub(super) fn camera(&self) -> &Camera {
@@ -109,19 +112,7 @@ impl Scene {
 
     /// At most as many of the pixels that show the object as scoring uses, spread evenly.
     pub(super) fn mask(&self) -> Vec<DepthPixel> {
-        let all: Vec<DepthPixel> = (0..SIZE.width * SIZE.height)
-            .filter(|index| self.shown[*index as usize])
-            .filter_map(|index| {
-                let (column, row) = (index % SIZE.width, index / SIZE.width);
-                Some(DepthPixel {
-                    column: column as u16,
-                    row: row as u16,
-                    depth: self.depth.at(column, row)?,
-                })
-            })
-            .collect();
-        let count = all.len().min(crate::bop::score::ScoreOptions::PIXELS);
-        (0..count).map(|i| all[i * all.len() / count]).collect()
+        self.depth.pixels_in(&self.shown, ScoreOptions::PIXELS)
     }
 }
 
@@ -157,10 +148,9 @@ impl Wall {
 }
 
 /// The depth of a surface's own points, infinite where there is none.
-fn of_surface<S: Surface>(surface: &S, camera: &Camera, truth: &Isometry3<f64>) -> Vec<f32> {
+fn of_surface<S: Surface>(surface: &S, camera: &Camera, pose: &Pose) -> Vec<f32> {
     let (width, height) = (SIZE.width as usize, SIZE.height as usize);
     let mut depths = vec![f32::INFINITY; width * height];
-    let pose = to_pose(truth);
     let near = pose.to_camera(&surface.centre().into()).z - surface.radius();
     surface.sample(SPACING * near / FOCAL_LENGTH, &mut |point| {
         let Some(seen) = point.map(|point| pose.to_camera(point)) else {
@@ -195,13 +185,4 @@ fn of_surface<S: Surface>(surface: &S, camera: &Camera, truth: &Isometry3<f64>) 
         })
         .collect();
     filled
-}
-
-/// The pose as the scorer takes it.
-pub(super) fn to_pose(pose: &Isometry3<f64>) -> Pose {
-    let r = pose.rotation.to_rotation_matrix();
-    let r: [f64; 9] = r.matrix().transpose().as_slice().try_into().expect("3 x 3");
-    let t: Vector3<f64> = pose.translation.vector;
-    Pose::from_row_major_orthonormalised(r.map(|x| x as f32), t.cast::<f32>().into())
-        .expect("a rotation")
 }

@@ -108,6 +108,28 @@ fn the_table_and_the_json_tell_the_same_and_what_was_left_out() {
 }
 
 #[test]
+fn fewer_pixels_than_the_report_was_scored_with_are_refused_since_its_confidences_are_zero_there() {
+    let scene = scene();
+    let mut strict = report();
+    for estimate in strict["estimates"].as_array_mut().unwrap() {
+        estimate["minimum_points"] = json!(30);
+    }
+    strict["estimates"][7]["minimum_points"] = json!(40);
+    scene.write("report.json", strict.to_string());
+    for points in [&[][..], &["--min-points", "39"]] {
+        let said = [
+            "report.json: row 9 was scored with a least of 40",
+            "expected --min-points 40 or more",
+        ];
+        refuse(scene.arguments(&words(points)), 3, &said);
+    }
+    succeed(scene.arguments(&words(&["--min-points", "40"])));
+    // Row 9 is of object 5: of object 6 alone 30 are enough, and too few are wrong.
+    let alone = words(&["--object", "6", "--min-points", "30"]);
+    refuse(scene.arguments(&alone), 3, &["0 wrong estimates"]);
+}
+
+#[test]
 fn the_curves_are_svg_with_the_threshold_in_them() {
     let scene = scene();
     succeed(scene.arguments(&words(&["--curves", "@curves/of/part"])));

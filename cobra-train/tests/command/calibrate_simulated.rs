@@ -85,6 +85,23 @@ fn what_cannot_be_simulated_is_refused_in_a_line() {
         (&[], "--labelled"),
         (&["--simulate", "200", "--depth-noise=-1"], "-1"),
         (&["--labelled", "@report.json", "--seed", "1"], "--seed"),
+        (
+            &["--labelled", "@report.json", "--symmetric"],
+            "--symmetric",
+        ),
+        (
+            &["--labelled", "@report.json", "--mesh", "@box.obj"],
+            "--mesh",
+        ),
+        (
+            &["--labelled", "@report.json", "--masks", "simulated"],
+            "--masks",
+        ),
+        (
+            &["--labelled", "@report.json", "--depth-noise", "1"],
+            "--depth-noise",
+        ),
+        (&["--seed", "1"], "--labelled"),
     ] {
         let outcome = run(words(more));
         assert_eq!(outcome.code, Some(2), "{outcome:?}");

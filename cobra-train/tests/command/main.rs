@@ -3,6 +3,8 @@
 mod ambiguity;
 mod auto;
 mod bop;
+mod bop_problems;
+mod bop_scene;
 mod calibrate;
 mod calibrate_simulated;
 mod camera_input;

@@ -1,6 +1,6 @@
 //! `cobra overlay`: pictures of estimates, and what it refuses.
 
-use crate::run::{refuse, succeed};
+use crate::run::{refuse, run, succeed};
 use crate::scene::Scene;
 use std::path::Path;
 
@@ -107,7 +107,10 @@ fn what_does_not_fit_is_one_line_that_names_the_file() {
         (
             format!("{BOP} --row 3"),
             3,
-            ["results.csv: line 3: ", "obj_000007.cobra: No such file"],
+            [
+                "results.csv: line 3: ",
+                "templates: expected obj_000007.cobra",
+            ],
         ),
         (
             format!("{BOP} --scene 2 --image 3 --object 5"),
@@ -156,5 +159,68 @@ fn what_does_not_fit_is_one_line_that_names_the_file() {
         ),
     ] {
         refuse(words(&scene, &line), code, &said);
+    }
+}
+
+#[test]
+fn options_of_the_one_kind_of_image_are_refused_beside_the_other() {
+    let scene = scene();
+    let of_files = "--depth-image @small.png";
+    for option in [
+        "--depth simulated",
+        "--depth-noise 1",
+        "--masks silhouette",
+        "--seed 1",
+        "--object 1",
+        "--row 2",
+        "--scene 2 --image 3",
+        "--split train",
+        "--truth",
+        "--templates @templates",
+        "--results @results.csv",
+    ] {
+        refused_together(words(&scene, &format!("{PLAIN} {of_files} {option}")));
+    }
+    for option in [
+        of_files,
+        "--depth-scale 0.5",
+        "--photo @small.png",
+        "--camera @K.txt",
+        "--pose @pose.json",
+        "--mask @small.png",
+    ] {
+        refused_together(words(&scene, &format!("{BOP} --row 2 {option}")));
+    }
+}
+
+#[test]
+fn a_row_is_of_results_and_not_of_the_truth() {
+    let scene = scene();
+    let truth =
+        "overlay --dataset @data --templates @templates --scene 2 --image 3 --truth --row 2";
+    refused_together(words(&scene, &format!("{truth} -o @out.png")));
+}
+
+fn refused_together(arguments: Vec<String>) {
+    let outcome = run(arguments);
+    assert_eq!(outcome.code, Some(2), "{outcome:?}");
+    assert!(
+        outcome.stderr.contains("cannot be used with"),
+        "{outcome:?}"
+    );
+}
+
+#[test]
+fn noise_on_measured_depth_is_refused_as_by_bop_score() {
+    let scene = scene();
+    for options in ["", "--depth sensor"] {
+        refuse(
+            words(
+                &scene,
+                format!("{BOP} --row 2 --depth-noise 2 {options}").trim_end(),
+            ),
+            2,
+            &["--depth-noise goes with --depth simulated"],
+        );
     }
 }

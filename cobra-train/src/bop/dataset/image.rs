@@ -63,7 +63,18 @@ pub fn mask_in(
 /// [`DatasetError`]: no such file, or no PNG.
 pub fn size_of(path: &Path) -> Result<ImageSize, DatasetError> {
     let reader = open(path, || "a PNG image".to_owned(), Transformations::IDENTITY)?;
-    Ok(size(reader.info()))
+    let found = size(reader.info());
+    if !found.is_held() {
+        return Err(DatasetError::Image {
+            path: path.to_owned(),
+            expected: format!(
+                "an image of at most {} pixels a side",
+                ImageSize::LARGEST_SIDE
+            ),
+            found: format!("one of {found}"),
+        });
+    }
+    Ok(found)
 }
 
 /// A photograph of the expected size: a PNG of any kind, in 8 bits a channel; transparency does not count.

@@ -54,6 +54,12 @@ impl Dataset {
         Scene::open(self.split.join(format!("{id:06}")), id)
     }
 
+    /// Whether a scene has masks of its own: a folder `mask_visib`.
+    #[must_use]
+    pub fn has_masks(&self, scene: u32) -> bool {
+        self.split.join(format!("{scene:06}/mask_visib")).is_dir()
+    }
+
     /// The models of this folder, `models` or `models_eval` for instance.
     ///
     /// # Errors

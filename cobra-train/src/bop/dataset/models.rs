@@ -2,6 +2,7 @@
 
 use super::document::{Document, Entry};
 use super::{DatasetError, place_of};
+use crate::bop::objects::{listed, objects_in};
 use crate::bop::symmetry::{Axis, Symmetries};
 use crate::input::json::{Misfit, exact_numbers};
 use crate::pose::nearest_pose;
@@ -52,16 +53,7 @@ impl Models {
     /// # Errors
     /// [`DatasetError::Io`] if the folder cannot be listed any more.
     pub fn objects(&self) -> Result<Vec<u32>, DatasetError> {
-        let io = |source| DatasetError::io(&self.folder, source);
-        let mut objects = Vec::new();
-        for entry in std::fs::read_dir(&self.folder).map_err(io)? {
-            let path = entry.map_err(io)?.path();
-            let stem = path.file_stem().and_then(|stem| stem.to_str());
-            let id = stem.and_then(|stem| stem.strip_prefix("obj_")?.parse().ok());
-            objects.extend(id.filter(|id| path == self.path(*id)));
-        }
-        objects.sort_unstable();
-        Ok(objects)
+        objects_in(&self.folder, "ply").map_err(|source| DatasetError::io(&self.folder, source))
     }
 
     /// The file of an object's model.
@@ -78,14 +70,10 @@ impl Models {
     pub fn geometry(&self, object: u32) -> Result<Geometry, DatasetError> {
         let path = self.path(object);
         if !path.exists() {
-            let known: Vec<String> = self.objects()?.iter().map(u32::to_string).collect();
             return Err(DatasetError::UnknownObject {
                 folder: self.folder.clone(),
                 object,
-                known: match known.len() {
-                    0 => "none".to_owned(),
-                    _ => known.join(", "),
-                },
+                known: listed(&self.objects()?),
             });
         }
         Ok(read_geometry(&path)?.geometry)
@@ -98,9 +86,21 @@ impl Models {
     pub fn info(&self, object: u32) -> Result<ModelInfo, DatasetError> {
         let Some(info) = &self.info else {
             let missing = std::io::ErrorKind::NotFound.into();
-            return Err(DatasetError::io(&self.folder.join(INFO), missing));
+            return Err(DatasetError::io(&self.info_path(), missing));
         };
         info_of(info, object)
+    }
+
+    /// Whether there is a `models_info.json`, in the folder or where another counts for it.
+    #[must_use]
+    pub fn has_info(&self) -> bool {
+        self.info.is_some()
+    }
+
+    /// The folder's own `models_info.json`, whether or not it is there.
+    #[must_use]
+    pub fn info_path(&self) -> PathBuf {
+        self.folder.join(INFO)
     }
 }
 

@@ -262,6 +262,22 @@ fn the_size_is_the_cameras_or_the_images_or_unknown() {
         dataset.image_size(&scene, 4),
         "camera.json: expected width and height there or an image 000004 among depth, rgb, gray and",
     );
+    let wide = ImageSize {
+        width: 65_536,
+        height: 1,
+    };
+    let path = folder.path().join("test/000002/depth/000004.png");
+    write_png(
+        &path,
+        wide,
+        ColorType::Grayscale,
+        BitDepth::Eight,
+        &[0; 65_536],
+    );
+    assert_says(
+        dataset.image_size(&scene, 4),
+        "000004.png: expected an image of at most 65535 pixels a side, found one of 65536 x 1 pixels",
+    );
     let camera = folder.path().join("camera.json");
     let text = r#"{"fx": 50, "fy": 50, "cx": 2, "cy": 1"#;
     fs::write(&camera, format!("{text}}}")).unwrap();

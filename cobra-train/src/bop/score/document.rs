@@ -4,6 +4,7 @@
 //! needs of them.
 
 use super::{DepthSource, Masks, Outcome, ScoreOptions, Scored, Truth};
+use cobra_infer::Unit;
 use serde::Serialize;
 
 /// The report of a results file.
@@ -42,6 +43,8 @@ struct EstimateDocument {
     score: Option<ScoreDocument>,
     #[serde(skip_serializing_if = "Option::is_none")]
     truth: Option<TruthDocument>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    truth_problem: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -50,6 +53,7 @@ struct ScoreDocument {
     reason: &'static str,
     cause: String,
     masks: &'static str,
+    minimum_points: u32,
     forward: f32,
     reverse: f32,
     estimated_error_mm: f32,
@@ -136,7 +140,8 @@ fn estimate(scored: &Scored) -> EstimateDocument {
         valid_pixels: outcome.map_or(0, Outcome::valid_pixels),
         problem: scored.outcome.as_ref().err().map(ToString::to_string),
         score: outcome.map(score),
-        truth: scored.truth.as_ref().map(truth),
+        truth: scored.known_truth().map(truth),
+        truth_problem: scored.truth.as_ref().err().map(ToString::to_string),
     }
 }
 
@@ -146,8 +151,9 @@ fn score(outcome: &Outcome) -> ScoreDocument {
     ScoreDocument {
         decision: report.decision.name(),
         reason: report.decision.reason(),
-        cause: outcome.cause.to_string(),
+        cause: outcome.cause.in_unit(Unit::Millimetre).to_string(),
         masks: if outcome.masked { "mask" } else { "silhouette" },
+        minimum_points: outcome.minimum_points,
         forward: report.forward,
         reverse: report.reverse,
         estimated_error_mm: report.estimated_error,

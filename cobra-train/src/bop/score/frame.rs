@@ -80,6 +80,12 @@ impl<'d> Frames<'d> {
         }
     }
 
+    /// Whether the truth of a scene is published.
+    pub(super) fn have_truth(&self) -> bool {
+        let mut opened = self.scenes.values().flatten();
+        opened.any(Scene::has_truth)
+    }
+
     /// Everything of an image that scoring needs.
     ///
     /// # Errors

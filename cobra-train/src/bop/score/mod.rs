@@ -7,6 +7,8 @@ mod document;
 mod frame;
 mod problem;
 mod summary;
+#[cfg(test)]
+mod tests;
 mod truth;
 
 pub use document::ReportDocument;
@@ -15,9 +17,11 @@ pub use problem::Problem;
 pub use summary::Summary;
 pub use truth::{Errors, Truth};
 
-use super::dataset::Dataset;
+use super::dataset::{Dataset, DatasetError};
 use super::results::{PoseEstimate, Results};
 use super::templates::TemplateFileError;
+use crate::calibrate::Labelled;
+use crate::depth::valid_pixels;
 use crate::progress::Progress;
 use cobra_infer::depth::{
     Cause, Cell, Correction, DepthCheck, DepthReport, DepthSettings, Observed, Surface,
@@ -82,8 +86,30 @@ pub struct Scored {
     pub estimate: Option<PoseEstimate>,
     /// The score, or why there is none.
     pub outcome: Result<Outcome, Problem>,
+    /// How far the estimate is from the truth; `None` where that is not published or the row is no pose, and
+    /// otherwise why it is not known.
+    pub truth: Result<Option<Truth>, Arc<DatasetError>>,
+}
+
+impl Scored {
     /// How far the estimate is from the truth, where that is known.
-    pub truth: Option<Truth>,
+    #[must_use]
+    pub fn known_truth(&self) -> Option<&Truth> {
+        self.truth.as_ref().ok()?.as_ref()
+    }
+
+    /// Its confidence and whether it is right, where that is known and a threshold decides: with fewer than
+    /// [`Outcome::minimum_points`] the answer is undecided, whatever the threshold.
+    #[must_use]
+    pub fn decided(&self) -> Option<Labelled> {
+        let outcome = self.outcome.as_ref().ok()?;
+        let enough = outcome.valid_pixels() >= outcome.minimum_points;
+        let right = self.known_truth()?.is_right();
+        enough.then_some(Labelled {
+            confidence: outcome.report.confidence,
+            right,
+        })
+    }
 }
 
 /// A score.
@@ -95,16 +121,17 @@ pub struct Outcome {
     pub correction: Correction,
     /// Why it fits as it does.
     pub cause: Cause,
+    /// With fewer valid pixels the confidence would be 0, [`DepthSettings::minimum_points`].
+    pub minimum_points: u32,
     /// Whether a mask said which pixels show the object, rather than the estimate's own silhouette.
     pub masked: bool,
 }
 
 impl Outcome {
-    /// On how many pixels or points of the surface it rests, whichever are fewer: what
-    /// [`DepthSettings::minimum_points`] is compared with.
+    /// [`valid_pixels`] of the report.
     #[must_use]
     pub fn valid_pixels(&self) -> u32 {
-        self.report.pixels.min(self.report.judged)
+        valid_pixels(&self.report)
     }
 }
 
@@ -145,12 +172,19 @@ pub fn score_results<S: Surface + Sync + Send>(
                 line: content.line,
                 estimate: None,
                 outcome: Err(Problem::Row(error.clone())),
-                truth: None,
+                truth: Ok(None),
             }),
         }
     }
     let frames = Frames::new(dataset, images.keys().map(|(scene, _)| *scene), options);
     let judge = Judge::new(dataset, surfaces.keys().copied());
+    if let Some(info) = judge.missing_info().filter(|_| frames.have_truth()) {
+        progress.warn(&format!(
+            "{}: expected diameters and symmetries of the objects, found no such file: diameters are the \
+             models' own, and errors those of objects without symmetries",
+            info.display()
+        ));
+    }
     progress.start("scoring images", images.len() as u64);
     let judged: Vec<Vec<Scored>> = images
         .into_par_iter()
@@ -212,6 +246,7 @@ fn score_one<S: Surface>(
         report,
         correction,
         cause: report.cause(&correction),
+        minimum_points: settings.minimum_points,
         masked: pixels.is_some(),
     })
 }

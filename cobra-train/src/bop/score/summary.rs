@@ -1,9 +1,13 @@
 //! What the scores of a file are worth, where the truth is known.
 
-use super::{Outcome, Scored};
-use crate::calibrate::{Labelled, Roc};
+use super::{Outcome, Scored, Truth};
+use crate::calibrate::{Labelled, area_under_roc};
 use crate::evaluate::rank_correlation;
+use crate::pose::RIGHT;
 use cobra_infer::Decision;
+
+/// The error, as a share of the diameter, below which a wrong estimate is still about the object's place.
+const NEAR: f64 = 0.5;
 
 /// Counts, and how well scores tell right from wrong.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,7 +52,7 @@ impl Summary {
                 Decision::Reject(_) => 1,
                 Decision::Undecided(_) => 2,
             }] += 1;
-            if let (Some(truth), Some(estimate)) = (&row.truth, &row.estimate) {
+            if let (Some(truth), Some(estimate)) = (row.known_truth(), &row.estimate) {
                 known.push((outcome, truth, estimate.score));
             }
         }
@@ -57,21 +61,8 @@ impl Summary {
             .iter()
             .filter(|(_, truth, _)| truth.is_right())
             .count();
-        let area = |score: fn(&Outcome, f64) -> f32| {
-            let labelled: Vec<Labelled> = known
-                .iter()
-                .map(|(outcome, truth, own)| Labelled {
-                    confidence: score(outcome, *own),
-                    right: truth.is_right(),
-                })
-                .collect();
-            let same = labelled
-                .windows(2)
-                .all(|w| w[0].confidence == w[1].confidence);
-            Roc::new(&labelled).filter(|_| !same).map(|roc| roc.area)
-        };
-        summary.area = area(|outcome, _| outcome.report.confidence);
-        summary.own_area = area(|_, own| own as f32);
+        summary.area = area(&known, |outcome, _| f64::from(outcome.report.confidence));
+        summary.own_area = area(&known, |_, own| own);
         let pairs: Vec<(&Outcome, f64, f64)> = known
             .iter()
             .filter_map(|(outcome, truth, _)| {
@@ -88,13 +79,46 @@ impl Summary {
         let estimated: fn(&Outcome, f64) -> f64 =
             |outcome, diameter| f64::from(outcome.report.estimated_error) / diameter;
         summary.error_correlation = against(estimated);
-        let mut ratios: Vec<f64> = pairs
+        let ratios = pairs
             .iter()
-            .filter(|(_, error, _)| (0.1..0.5).contains(error))
-            .map(|(outcome, error, diameter)| estimated(outcome, *diameter) / error)
-            .collect();
-        ratios.sort_by(f64::total_cmp);
-        summary.error_ratio = ratios.get(ratios.len() / 2).copied();
+            .filter(|(_, error, _)| (RIGHT..NEAR).contains(error))
+            .map(|(outcome, error, diameter)| estimated(outcome, *diameter) / error);
+        summary.error_ratio = median(ratios.collect());
         summary
+    }
+}
+
+/// The area under the ROC of a score; `None` also where it is always the same.
+fn area(known: &[(&Outcome, &Truth, f64)], score: fn(&Outcome, f64) -> f64) -> Option<f64> {
+    let labelled: Vec<Labelled<f64>> = known
+        .iter()
+        .map(|(outcome, truth, own)| Labelled {
+            confidence: score(outcome, *own),
+            right: truth.is_right(),
+        })
+        .collect();
+    let first = labelled.first()?.confidence;
+    let differ = labelled.iter().any(|one| one.confidence != first);
+    area_under_roc(&labelled).filter(|_| differ)
+}
+
+/// The middle one of the numbers, or the mean of the two in the middle.
+fn median(mut numbers: Vec<f64>) -> Option<f64> {
+    numbers.sort_by(f64::total_cmp);
+    let upper = *numbers.get(numbers.len() / 2)?;
+    let lower = numbers[(numbers.len() - 1) / 2];
+    Some(f64::midpoint(lower, upper))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_of_an_even_count_is_the_mean_of_the_two_in_the_middle() {
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 1.5]), Some(1.75));
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(vec![7.0]), Some(7.0));
+        assert_eq!(median(Vec::new()), None);
     }
 }

@@ -1,12 +1,15 @@
 //! How far an estimate is from the truth.
 
 use super::frame::Frames;
-use crate::bop::dataset::Dataset;
+use crate::bop::dataset::{Dataset, DatasetError, ModelInfo, Models};
 use crate::bop::results::PoseEstimate;
-use crate::bop::symmetry::LARGEST_STEP;
-use crate::pose::{ModelPoints, add, add_s, mspd, mssd};
+use crate::bop::symmetry::{LARGEST_STEP, Symmetries};
+use crate::pose::{ModelPoints, RIGHT, add, add_s, mspd, mssd};
 use nalgebra::Isometry3;
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
+use std::path::PathBuf;
+use std::sync::Arc;
 
 /// What the truth says of an estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,19 +59,16 @@ impl Truth {
 }
 
 impl Errors {
-    /// Right is what is off by less than this share of the diameter.
-    pub const RIGHT: f64 = 0.1;
-
     /// What the estimate is judged by: ADD-S of symmetric objects, ADD of others.
     #[must_use]
     pub fn error(&self) -> f64 {
         if self.symmetric { self.add_s } else { self.add }
     }
 
-    /// Whether [`Errors::error`] is less than [`Errors::RIGHT`] times the diameter.
+    /// Whether [`Errors::error`] is less than [`RIGHT`] times the diameter.
     #[must_use]
     pub fn is_right(&self) -> bool {
-        self.error() < Self::RIGHT * self.diameter
+        self.error() < RIGHT * self.diameter
     }
 }
 
@@ -80,47 +80,67 @@ struct Measured {
     diameter: f64,
 }
 
-/// The models of all objects of which there are some: those of `models_eval`, or of `models` where a data
-/// set has no others.
+/// What the truth is measured on: the models of `models_eval`, or of `models` where a data set has no others.
 pub(super) struct Judge {
-    objects: BTreeMap<u32, Measured>,
+    objects: BTreeMap<u32, Result<Measured, Arc<DatasetError>>>,
+    missing_info: Option<PathBuf>,
 }
 
 impl Judge {
+    /// What is wrong with one object's model is told when its truth is asked for.
     pub(super) fn new(dataset: &Dataset, objects: impl Iterator<Item = u32>) -> Self {
-        let models = dataset
-            .models("models_eval")
-            .or_else(|_| dataset.models("models"));
-        let Ok(models) = models else {
-            return Self {
-                objects: BTreeMap::new(),
-            };
+        let models = match dataset.models("models_eval") {
+            Err(DatasetError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {
+                dataset.models("models")
+            }
+            models => models,
         };
-        let measured = |object| {
-            let info = models.info(object).ok()?;
-            Some(Measured {
-                points: ModelPoints::of(&models.geometry(object).ok()?),
-                symmetric: !info.symmetries.is_none(),
-                symmetries: info.symmetries.transformations(LARGEST_STEP),
-                diameter: info.diameter,
-            })
+        let models = models.map_err(Arc::new);
+        let measured = |object| match &models {
+            Ok(models) => measured(models, object).map_err(Arc::new),
+            Err(error) => Err(Arc::clone(error)),
         };
         Self {
-            objects: objects
-                .filter_map(|object| Some((object, measured(object)?)))
-                .collect(),
+            objects: objects.map(|object| (object, measured(object))).collect(),
+            missing_info: match &models {
+                Ok(models) if !models.has_info() => Some(models.info_path()),
+                _ => None,
+            },
         }
     }
 
-    /// The errors against that annotation of the object in the image that is nearest; `None` where nothing
-    /// is known of the image or the object.
-    pub(super) fn truth(&self, frames: &Frames<'_>, estimate: &PoseEstimate) -> Option<Truth> {
-        let model = self.objects.get(&estimate.obj_id)?;
-        let scene = frames.scene(estimate.scene_id).ok()?;
-        let camera = scene.camera(estimate.im_id).ok()?.camera;
-        let annotations = scene.truth(estimate.im_id).ok()?;
-        let pose = estimate.isometry().ok()?;
-        let points = model.points.points();
+    /// The `models_info.json` that is not there: errors are then those of objects without symmetries.
+    pub(super) fn missing_info(&self) -> Option<PathBuf> {
+        self.missing_info.clone()
+    }
+
+    /// The errors against that annotation of the object in the image that is nearest; `None` where the truth
+    /// is not published, and where the score tells why there is none: of an estimate that is no pose, and of an
+    /// image without a camera.
+    ///
+    /// # Errors
+    /// [`DatasetError`]: what is wrong with the object's model, or with the image's true poses.
+    pub(super) fn truth(
+        &self,
+        frames: &Frames<'_>,
+        estimate: &PoseEstimate,
+    ) -> Result<Option<Truth>, Arc<DatasetError>> {
+        let Ok(scene) = frames.scene(estimate.scene_id) else {
+            return Ok(None);
+        };
+        let (Ok(camera), Ok(pose)) = (scene.camera(estimate.im_id), estimate.isometry()) else {
+            return Ok(None);
+        };
+        if !scene.has_truth() {
+            return Ok(None);
+        }
+        let annotations = scene.truth(estimate.im_id)?;
+        let model = match self.objects.get(&estimate.obj_id) {
+            Some(Ok(model)) => model,
+            Some(Err(error)) => return Err(Arc::clone(error)),
+            None => return Ok(None),
+        };
+        let (camera, points) = (camera.camera, model.points.points());
         let errors = annotations
             .iter()
             .filter(|annotation| annotation.obj_id == estimate.obj_id)
@@ -138,6 +158,26 @@ impl Judge {
                 }
             })
             .min_by(|a, b| a.error().total_cmp(&b.error()));
-        Some(errors.map_or(Truth::Absent, Truth::Present))
+        Ok(Some(errors.map_or(Truth::Absent, Truth::Present)))
     }
+}
+
+/// An object's model with its diameter and symmetries; without a `models_info.json` with its own diameter and
+/// without symmetries.
+fn measured(models: &Models, object: u32) -> Result<Measured, DatasetError> {
+    let geometry = models.geometry(object)?;
+    let info = if models.has_info() {
+        models.info(object)?
+    } else {
+        ModelInfo {
+            diameter: geometry.diameter(),
+            symmetries: Symmetries::default(),
+        }
+    };
+    Ok(Measured {
+        points: ModelPoints::of(&geometry),
+        symmetric: !info.symmetries.is_none(),
+        symmetries: info.symmetries.transformations(LARGEST_STEP),
+        diameter: info.diameter,
+    })
 }

@@ -139,19 +139,9 @@ fn threshold(
 }
 
 /// A share in percent, with as many digits as a share near 0 or 1 needs.
-fn percent(rate: Rate) -> String {
-    let percent = 100.0 * rate.share();
-    let digits = usize::from(!(1.0..=99.0).contains(&percent)) + 1;
-    format!("{percent:.digits$} %")
-}
-
-fn interval(rate: Rate) -> String {
-    let interval = rate.interval();
-    format!(
-        "{:.2} to {:.2} %",
-        100.0 * interval.low,
-        100.0 * interval.high
-    )
+fn share(rate: Rate) -> String {
+    let digits = usize::from(!(0.01..=0.99).contains(&rate.share())) + 1;
+    format!("{rate:.digits$}")
 }
 
 /// How many estimates a curve is of.

@@ -1,7 +1,7 @@
 //! The curve of precision against recall as SVG.
 
 use super::super::{PrecisionRecall, Rate, Thresholds};
-use super::{BEYOND, Frame, PlotError, curve, dashed, estimates, interval, percent, threshold};
+use super::{BEYOND, Frame, PlotError, curve, dashed, estimates, share, threshold};
 use crate::demo::style::QUIET;
 use plotters::style::text_anchor::HPos;
 
@@ -39,8 +39,8 @@ pub fn precision_recall_svg(
         let at = (right.share(), precision.share());
         let lines = [
             format!("accepted from {:.3} on:", thresholds.accept),
-            format!("{} are right ({})", percent(precision), interval(precision)),
-            format!("{} of right ones", percent(right)),
+            format!("{} are right ({})", share(precision), precision.interval()),
+            format!("{} of right ones", share(right)),
         ];
         // Three lines take so much room below a point.
         let place = (at.0, at.1.max(0.2));

@@ -2,7 +2,7 @@
 
 use super::super::{Roc, Thresholds};
 use super::zoom::zoom;
-use super::{BEYOND, Frame, PlotError, curve, dashed, estimates, interval, percent, threshold};
+use super::{BEYOND, Frame, PlotError, curve, dashed, estimates, share, threshold};
 use crate::demo::style::QUIET;
 use plotters::style::text_anchor::HPos;
 
@@ -33,8 +33,8 @@ pub fn roc_svg(roc: &Roc, thresholds: &Thresholds) -> Result<String, PlotError> 
         let at = (wrong.share(), right.share());
         let lines = [
             format!("accepted from {:.3} on:", thresholds.accept),
-            format!("{} of wrong ones ({})", percent(wrong), interval(wrong)),
-            format!("{} of right ones", percent(right)),
+            format!("{} of wrong ones ({})", share(wrong), wrong.interval()),
+            format!("{} of right ones", share(right)),
         ];
         // Beside a low point the curve rises; below the diagonal there is room.
         let steep = points.iter().any(|&(x, y)| x < 0.1 && y > 0.5);

@@ -45,7 +45,7 @@ pub(crate) struct AmbiguityArguments {
     pub(crate) masks: MasksArgument,
 
     /// Standard deviation of the simulated depth in mm
-    #[arg(long, value_name = "MM", value_parser = not_negative, default_value_t = 0.0)]
+    #[arg(long, value_name = "MM", value_parser = not_negative::<f32>, default_value_t = 0.0)]
     pub(crate) depth_noise: f32,
 
     /// Seed of all randomness

@@ -1,7 +1,8 @@
 //! The arguments of `cobra bop`.
 
 use crate::cli::choices::{BudgetArgument, MeanArgument, budget};
-use clap::{Args, Subcommand, ValueEnum};
+use crate::cli::sources::SourceArguments;
+use clap::{Args, Subcommand};
 use cobra_train::bop::score::ScoreOptions;
 use std::path::PathBuf;
 
@@ -58,7 +59,8 @@ pub(crate) struct BopTrainArguments {
                   it as it is; -1 stands where an estimate could not be scored. Rows that are no estimates \
                   are left out.\n\nSimulated depth is rendered from all annotated objects of an image at their \
                   true poses; where no object is rendered the depth counts as measured and far.\n\nExit code 3 \
-                  says that some rows could not be scored; the others were.\n\nExamples:\n  cobra bop score \
+                  says that some rows could not be scored, or that the truth of some is there and cannot be \
+                  used; the others were.\n\nExamples:\n  cobra bop score \
                   --dataset lmo --split test --results gdrnpp_lmo-test.csv --templates templates -o \
                   rescored.csv\n  cobra bop score --dataset lmo --split test --results gdrnpp_lmo-test.csv \
                   --templates templates --depth simulated --masks simulated -o rescored.csv --report \
@@ -81,27 +83,12 @@ pub(crate) struct BopScoreArguments {
     #[arg(long, value_name = "DIR")]
     pub(crate) templates: PathBuf,
 
-    /// Which pixels show the object: masks in a folder (SSSSSS/mask_visib/IIIIII_GGGGGG.png), those of
-    /// the rendering of the true poses, or those in which the estimate itself says that it is seen
-    /// [default: the data set's mask_visib where there is one, else silhouette]
-    #[arg(long, value_name = "DIR|simulated|silhouette")]
-    pub(crate) masks: Option<PathBuf>,
-
-    /// Where depth comes from
-    #[arg(long, value_enum, default_value_t = DepthArgument::Sensor)]
-    pub(crate) depth: DepthArgument,
-
-    /// Standard deviation of the noise on simulated depth, in mm [default: 1.5]
-    #[arg(long, value_name = "MM", value_parser = crate::cli::choices::not_negative)]
-    pub(crate) depth_noise: Option<f32>,
+    #[command(flatten)]
+    pub(crate) sources: SourceArguments,
 
     /// Most pixels of a mask that are used, spread evenly
     #[arg(long, value_name = "N", default_value_t = ScoreOptions::PIXELS as u32, value_parser = clap::value_parser!(u32).range(10..=1_000_000))]
     pub(crate) pixels: u32,
-
-    /// Seed of the noise
-    #[arg(long, default_value_t = 0)]
-    pub(crate) seed: u64,
 
     /// Results file to write
     #[arg(short, long, value_name = "RESCORED.csv")]
@@ -110,12 +97,4 @@ pub(crate) struct BopScoreArguments {
     /// Write what was found of every estimate as JSON, `-` for standard output
     #[arg(long, value_name = "FILE|-")]
     pub(crate) report: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum DepthArgument {
-    /// The data set's depth images
-    Sensor,
-    /// Rendered from the true poses of all annotated objects
-    Simulated,
 }

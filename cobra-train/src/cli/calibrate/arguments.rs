@@ -1,5 +1,6 @@
 //! The arguments of `cobra calibrate`.
 
+use crate::cli::choices::not_negative;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -22,12 +23,14 @@ pub(crate) struct CalibrateArguments {
     #[arg(value_name = "FILE.cobra")]
     pub(crate) template: PathBuf,
 
+    // One of the two is required. What goes with --simulate conflicts with the other: a `requires` would not do,
+    // which clap passes over where the option that is required conflicts with one that is there.
     /// Report of scored estimates with their truth
     #[arg(
         long,
         value_name = "REPORT.json",
         required_unless_present = "simulate",
-        conflicts_with = "simulate"
+        conflicts_with_all = ["simulate", "mesh", "masks", "depth_noise", "symmetric", "seed"]
     )]
     pub(crate) labelled: Option<PathBuf>,
 
@@ -37,34 +40,24 @@ pub(crate) struct CalibrateArguments {
 
     /// With --simulate: what the camera sees, in the template's unit [default: the template's own surface,
     /// which then has no error]
-    #[arg(
-        long,
-        value_name = "MESH",
-        requires = "simulate",
-        conflicts_with = "labelled"
-    )]
+    #[arg(long, value_name = "MESH")]
     pub(crate) mesh: Option<PathBuf>,
 
     /// With --simulate: which pixels show the object: those that a mask says, or those in which the estimate
     /// itself says that it is seen
-    #[arg(long, value_enum, default_value_t = MasksArgument::Silhouette, requires = "simulate", conflicts_with = "labelled")]
+    #[arg(long, value_enum, default_value_t = MasksArgument::Silhouette)]
     pub(crate) masks: MasksArgument,
 
     /// With --simulate: standard deviation of the depth, in mm [default: 1.5]
-    #[arg(long, value_name = "MM", value_parser = crate::cli::choices::not_negative, requires = "simulate", conflicts_with = "labelled")]
-    pub(crate) depth_noise: Option<f32>,
+    #[arg(long, value_name = "MM", value_parser = not_negative::<f64>)]
+    pub(crate) depth_noise: Option<f64>,
 
     /// With --simulate: judge estimates by ADD-S, of an object that looks the same from several sides
-    #[arg(long, requires = "simulate", conflicts_with = "labelled")]
+    #[arg(long)]
     pub(crate) symmetric: bool,
 
     /// With --simulate: seed of all randomness
-    #[arg(
-        long,
-        default_value_t = 0,
-        requires = "simulate",
-        conflicts_with = "labelled"
-    )]
+    #[arg(long, default_value_t = 0)]
     pub(crate) seed: u64,
 
     /// Share of the wrong estimates that may be accepted, above 0 and below 1

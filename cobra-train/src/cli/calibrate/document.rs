@@ -3,7 +3,7 @@
 use super::evidence::Evidence;
 use crate::cli::report::table;
 use cobra_infer::template::Calibration;
-use cobra_train::calibrate::{Aim, Bin, PrecisionRecall, Rate, Roc, Thresholds};
+use cobra_train::calibrate::{Aim, Bin, PrecisionRecall, Rate, Roc, Thresholds, percent};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -152,11 +152,11 @@ impl Found<'_> {
             vec![
                 kind.to_owned(),
                 accepted.total.to_string(),
-                percent(accepted),
-                interval(accepted),
-                percent(undecided),
-                percent(rejected),
-                interval(rejected),
+                accepted.to_string(),
+                accepted.interval().to_string(),
+                undecided.to_string(),
+                rejected.to_string(),
+                rejected.interval().to_string(),
             ]
         };
         let rows = [
@@ -179,30 +179,12 @@ impl Found<'_> {
              undecided   between them, or with fewer than {minimum} valid pixels\n\
              area        {:.4} under the roc; average precision {:.4}\n\n{}\n\nintervals: Wilson's at 95 %",
             thresholds.accept,
-            hundredfold(self.aim.false_accepts),
+            percent(self.aim.false_accepts),
             thresholds.reject,
-            hundredfold(self.aim.rejected_right),
+            percent(self.aim.rejected_right),
             self.roc.area,
             self.precision_recall.average_precision,
             table(&header, &["estimates"], &rows)
         )
     }
-}
-
-/// In percent, without what the product rounds.
-fn hundredfold(share: f64) -> f64 {
-    (share * 1e8).round() / 1e6
-}
-
-fn percent(rate: Rate) -> String {
-    format!("{:.2} %", 100.0 * rate.share())
-}
-
-fn interval(rate: Rate) -> String {
-    let interval = rate.interval();
-    format!(
-        "{:.2} to {:.2} %",
-        100.0 * interval.low,
-        100.0 * interval.high
-    )
 }

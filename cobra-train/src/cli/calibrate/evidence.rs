@@ -74,11 +74,19 @@ fn select(
     path: &Path,
 ) -> Result<(Vec<Labelled>, LeftOut), Failure> {
     let mut left_out = LeftOut::default();
+    // The row with the largest least number of pixels that is more than what is asked for.
+    let mut stricter: Option<(u64, u32)> = None;
     let mut labelled = Vec::with_capacity(estimates.len());
     for estimate in estimates {
         if arguments.object.is_some_and(|id| id != estimate.object) {
             left_out.other_objects += 1;
             continue;
+        }
+        let minimum = estimate.scored.and_then(|scored| scored.minimum_points);
+        if let Some(minimum) = minimum.filter(|minimum| *minimum > arguments.min_points)
+            && stricter.is_none_or(|(_, least)| least < minimum)
+        {
+            stricter = Some((estimate.row, minimum));
         }
         match (estimate.right, estimate.scored) {
             (None, _) => left_out.without_truth += 1,
@@ -94,6 +102,13 @@ fn select(
     }
     let of_object = estimates.len() - left_out.other_objects;
     let refuse = |what: &str| Err(Failure::BadInput(format!("{}: {what}", path.display())));
+    if let Some((row, minimum)) = stricter {
+        return refuse(&format!(
+            "row {row} was scored with a least of {minimum} valid pixels, below which a confidence is 0 \
+             whatever was seen: expected --min-points {minimum} or more, found {}",
+            arguments.min_points
+        ));
+    }
     match arguments.object {
         _ if estimates.is_empty() => refuse("the report holds no estimate"),
         Some(id) if of_object == 0 => refuse(&format!("no estimate is of object {id}")),

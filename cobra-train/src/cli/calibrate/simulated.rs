@@ -6,15 +6,13 @@ use crate::cli::failure::Failure;
 use crate::cli::report::plural;
 use crate::cli::terminal::Terminal;
 use cobra_infer::Template;
-use cobra_infer::depth::{DepthError, DepthSettings, TemplateSurface};
+use cobra_infer::depth::DepthSettings;
 use cobra_infer::template::{CalibrationSource, DecodedTerm};
+use cobra_train::bop::render::DepthNoise;
+use cobra_train::depth::template_surface;
 use cobra_train::progress::Progress;
-use cobra_train::simulation::{Simulation, simulate};
+use cobra_train::simulation::{Simulation, SimulationError, simulate};
 use cobra_train::surface::read_mesh;
-use cobra_train::train::LARGEST_TEMPLATE;
-
-/// The noise on simulated depth unless somebody says otherwise, in mm.
-const DEPTH_NOISE: f32 = 1.5;
 
 pub(super) fn evidence(
     arguments: &CalibrateArguments,
@@ -22,8 +20,9 @@ pub(super) fn evidence(
     count: u32,
     terminal: &Terminal,
 ) -> Result<Evidence, Failure> {
-    let refuse =
-        |error: DepthError| Failure::BadInput(format!("{}: {error}", arguments.template.display()));
+    let refuse = |error: SimulationError| {
+        Failure::BadInput(format!("{}: {error}", arguments.template.display()))
+    };
     let mesh = arguments.mesh.as_deref().map(read_mesh).transpose()?;
     let mut room = vec![DecodedTerm::default(); template.decoded_len()];
     let decoded = template.decoded(&mut room);
@@ -32,16 +31,12 @@ pub(super) fn evidence(
         minimum_points: arguments.min_points,
         ..DepthSettings::for_template(template)
     };
-    let noise = settings
-        .noise
-        .at(template.diameter(), 0.0)
-        .map_err(refuse)?;
-    let surface = TemplateSurface::<LARGEST_TEMPLATE>::new(template, noise).map_err(refuse)?;
-    let sensor = arguments.depth_noise.unwrap_or(DEPTH_NOISE);
+    let surface = template_surface(template, &settings).map_err(|error| refuse(error.into()))?;
+    let sensor = arguments.depth_noise.unwrap_or(DepthNoise::MILLIMETRES);
     let masked = arguments.masks == MasksArgument::Simulated;
     let simulation = Simulation {
         estimates: count as usize,
-        noise: f64::from(sensor / template.unit().millimetres()),
+        noise: sensor / f64::from(template.unit().millimetres()),
         masked,
         symmetric: arguments.symmetric,
         seed: arguments.seed,

@@ -1,18 +1,37 @@
 //! The arguments of `cobra overlay`.
 
 use super::super::choices::positive;
-use clap::{Args, ValueEnum};
-use cobra_train::bop::score::Masks;
+use super::super::sources::SourceArguments;
+use clap::Args;
 use std::path::PathBuf;
 
-/// Where depth comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum DepthArgument {
-    /// The data set's depth images
-    Sensor,
-    /// All annotated objects rendered at their true poses, with noise
-    Simulated,
-}
+/// Options of an image of a data set, which conflict with the template of the other kind. A `requires` in each of
+/// them would not do: clap passes over it where what is required conflicts with something that is there.
+const OF_DATA_SET: [&str; 13] = [
+    "dataset",
+    "split",
+    "scene",
+    "image",
+    "templates",
+    "results",
+    "row",
+    "object",
+    "truth",
+    "masks",
+    "depth",
+    "depth_noise",
+    "seed",
+];
+
+/// Options of an image in files of its own, which conflict with a data set.
+const OF_FILES: [&str; 6] = [
+    "depth_image",
+    "depth_scale",
+    "photo",
+    "camera",
+    "pose",
+    "mask",
+];
 
 #[derive(Debug, Args)]
 #[command(
@@ -33,7 +52,7 @@ pub(crate) struct OverlayArguments {
     #[arg(
         value_name = "FILE.cobra",
         required_unless_present = "dataset",
-        conflicts_with = "dataset"
+        conflicts_with_all = OF_DATA_SET
     )]
     pub(crate) template: Option<PathBuf>,
 
@@ -61,37 +80,32 @@ pub(crate) struct OverlayArguments {
 #[command(next_help_heading = "An image of a BOP data set")]
 pub(crate) struct BopArguments {
     /// Data set in BOP's layout
-    #[arg(long, value_name = "DIR", requires = "templates")]
+    #[arg(
+        long,
+        value_name = "DIR",
+        requires = "templates",
+        conflicts_with_all = OF_FILES
+    )]
     pub(crate) dataset: Option<PathBuf>,
 
     /// Its split
-    #[arg(
-        long,
-        value_name = "NAME",
-        default_value = "test",
-        requires = "dataset"
-    )]
+    #[arg(long, value_name = "NAME", default_value = "test")]
     pub(crate) split: String,
 
     /// Scene [default: that of --row]
-    #[arg(long, value_name = "N", requires_all = ["dataset", "image"])]
+    #[arg(long, value_name = "N", requires = "image")]
     pub(crate) scene: Option<u32>,
 
     /// Image [default: that of --row]
-    #[arg(long, value_name = "N", requires_all = ["dataset", "scene"])]
+    #[arg(long, value_name = "N", requires = "scene")]
     pub(crate) image: Option<u32>,
 
     /// Folder of templates: obj_000001.cobra and so on
-    #[arg(long, value_name = "DIR", requires = "dataset")]
+    #[arg(long, value_name = "DIR")]
     pub(crate) templates: Option<PathBuf>,
 
     /// Estimates: all of the image, unless --row or --object says which
-    #[arg(
-        long,
-        value_name = "FILE.csv",
-        requires = "dataset",
-        conflicts_with = "truth"
-    )]
+    #[arg(long, value_name = "FILE.csv", conflicts_with = "truth")]
     pub(crate) results: Option<PathBuf>,
 
     /// The estimate on this line of the results file, the header being line 1
@@ -99,34 +113,20 @@ pub(crate) struct BopArguments {
         long,
         value_name = "LINE",
         requires = "results",
-        conflicts_with = "object"
+        conflicts_with_all = ["object", "truth"]
     )]
     pub(crate) row: Option<u64>,
 
     /// The estimates of this object
-    #[arg(long, value_name = "ID", requires = "dataset")]
+    #[arg(long, value_name = "ID")]
     pub(crate) object: Option<u32>,
 
     /// The true poses instead of estimates
-    #[arg(long, requires = "dataset")]
+    #[arg(long)]
     pub(crate) truth: bool,
 
-    /// Where depth comes from
-    #[arg(long, value_enum, default_value_t = DepthArgument::Sensor, requires = "dataset")]
-    pub(crate) depth: DepthArgument,
-
-    /// Standard deviation of the noise of simulated depth in mm
-    #[arg(long, value_name = "MM", default_value_t = 1.5, value_parser = not_negative, requires = "dataset")]
-    pub(crate) depth_noise: f64,
-
-    /// Seed of that noise
-    #[arg(long, default_value_t = 0, requires = "dataset")]
-    pub(crate) seed: u64,
-
-    /// Which pixels show an object: masks in a folder, those of a rendering of the true poses, or the
-    /// estimate's own silhouette [default: the split's masks where it has some, else silhouette]
-    #[arg(long, value_name = "DIR|simulated|silhouette", value_parser = masks, requires = "dataset")]
-    pub(crate) masks: Option<Masks>,
+    #[command(flatten)]
+    pub(crate) sources: SourceArguments,
 }
 
 /// An image in files of their own.
@@ -134,56 +134,30 @@ pub(crate) struct BopArguments {
 #[command(next_help_heading = "An image in files of their own")]
 pub(crate) struct FileArguments {
     /// What the depth camera measured: 16-bit grey PNG
-    #[arg(
-        long,
-        value_name = "DEPTH.png",
-        requires = "template",
-        required_unless_present = "dataset"
-    )]
+    #[arg(long, value_name = "DEPTH.png", required_unless_present = "dataset")]
     pub(crate) depth_image: Option<PathBuf>,
 
     /// What its values are multiplied with to become mm [default: the camera file's, else 1]
-    #[arg(long, value_name = "S", value_parser = positive, requires = "template")]
+    #[arg(long, value_name = "S", value_parser = positive)]
     pub(crate) depth_scale: Option<f32>,
 
     /// Photograph of the same size as the depth image [default: the depth image in grey]
-    #[arg(long, value_name = "RGB.png", requires = "template")]
+    #[arg(long, value_name = "RGB.png")]
     pub(crate) photo: Option<PathBuf>,
 
     /// Camera matrix K as text, or BOP's camera.json
     #[arg(
         long,
         value_name = "K.txt|CAMERA.json",
-        requires = "template",
         required_unless_present = "dataset"
     )]
     pub(crate) camera: Option<PathBuf>,
 
     /// Poses, as of cobra score; all are drawn
-    #[arg(
-        long,
-        value_name = "POSE.json",
-        requires = "template",
-        required_unless_present = "dataset"
-    )]
+    #[arg(long, value_name = "POSE.json", required_unless_present = "dataset")]
     pub(crate) pose: Option<PathBuf>,
 
     /// The pixels that show the object are not 0: 8-bit grey PNG [default: each pose's own silhouette]
-    #[arg(long, value_name = "MASK.png", requires = "template")]
+    #[arg(long, value_name = "MASK.png")]
     pub(crate) mask: Option<PathBuf>,
-}
-
-fn masks(text: &str) -> Result<Masks, String> {
-    Ok(match text {
-        "simulated" => Masks::Simulated,
-        "silhouette" => Masks::Silhouette,
-        folder => Masks::Folder(folder.into()),
-    })
-}
-
-fn not_negative(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number >= 0.0 && number.is_finite() => Ok(number),
-        _ => Err("expected a number of at least 0".to_owned()),
-    }
 }

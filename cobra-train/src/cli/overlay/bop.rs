@@ -3,10 +3,9 @@
 //! Owns which estimates are meant. What belongs to an image, and which pixels show what, is
 //! [`cobra_train::bop::score`]'s.
 
-use super::super::demo::to_pose;
 use super::super::failure::Failure;
 use super::super::terminal::Terminal;
-use super::arguments::{BopArguments, DepthArgument};
+use super::arguments::BopArguments;
 use super::{Seen, Shown, estimate, file_name, skip};
 use cobra_infer::Pose;
 use cobra_train::bop::dataset::{Dataset, DatasetError, Scene};
@@ -14,6 +13,7 @@ use cobra_train::bop::results::{Results, read_results};
 use cobra_train::bop::score::{DepthSource, Frames, Masks, ScoreOptions};
 use cobra_train::bop::templates::TemplateFile;
 use cobra_train::overlay::{OverlayEstimate, grey_depth};
+use cobra_train::pose::single_pose;
 use nalgebra::Point3;
 use std::path::Path;
 
@@ -31,6 +31,7 @@ pub(super) fn read(
     arguments: &BopArguments,
     terminal: &Terminal,
 ) -> Result<Shown, Failure> {
+    let depth = arguments.sources.depth()?;
     let dataset = Dataset::open(folder, &arguments.split)?;
     let results = match &arguments.results {
         Some(path) => Some((path.as_path(), read_results(path)?)),
@@ -39,19 +40,10 @@ pub(super) fn read(
     let (scene_id, image) = image_of(arguments, results.as_ref())?;
     let scene = dataset.scene(scene_id)?;
     let wanted = wanted(arguments, results.as_ref(), &scene, image)?;
-    let masks = arguments
-        .masks
-        .clone()
-        .unwrap_or_else(|| known_masks(&dataset, &scene));
     let options = ScoreOptions {
-        depth: match arguments.depth {
-            DepthArgument::Sensor => DepthSource::Sensor,
-            DepthArgument::Simulated => DepthSource::Simulated {
-                noise: arguments.depth_noise,
-            },
-        },
-        masks,
-        seed: arguments.seed,
+        masks: arguments.sources.masks(&dataset, Some(scene_id)),
+        depth,
+        seed: arguments.sources.seed,
         pixels: ScoreOptions::PIXELS,
     };
     let subtitle = subtitle(arguments, &options, scene_id, image);
@@ -190,7 +182,7 @@ fn wanted(
                 object: one.obj_id,
                 name: format!("object {}, true pose", one.obj_id),
                 place: format!("{}: {image}", path.display()),
-                pose: to_pose(&one.pose).map_err(|error| error.to_string()),
+                pose: single_pose(&one.pose).map_err(|error| error.to_string()),
             });
             (poses.collect(), path.display().to_string())
         }
@@ -210,15 +202,6 @@ fn wanted(
         )));
     }
     Ok(found)
-}
-
-/// The split's own masks, where the scene has some.
-fn known_masks(dataset: &Dataset, scene: &Scene) -> Masks {
-    if scene.folder().join("mask_visib").is_dir() {
-        Masks::Folder(dataset.split().to_owned())
-    } else {
-        Masks::Silhouette
-    }
 }
 
 fn subtitle(arguments: &BopArguments, options: &ScoreOptions, scene: u32, image: u32) -> String {

@@ -45,6 +45,17 @@ pub struct ImageSize {
 }
 
 impl ImageSize {
+    /// The most columns or rows: a depth pixel's place has 16 bits.
+    pub const LARGEST_SIDE: u32 = 65_535;
+
+    /// Whether neither side is 0 or longer than [`ImageSize::LARGEST_SIDE`].
+    pub(crate) fn is_held(self) -> bool {
+        let sides = [self.width, self.height];
+        sides
+            .iter()
+            .all(|side| (1..=Self::LARGEST_SIDE).contains(side))
+    }
+
     /// Where a pixel stands in a list of all, row by row from the top left; `None` outside of the
     /// image.
     pub(crate) fn index(self, column: u32, row: u32) -> Option<usize> {
