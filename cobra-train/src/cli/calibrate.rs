@@ -15,8 +15,8 @@ use super::terminal::Terminal;
 use cobra_infer::Template;
 use cobra_infer::template::{Calibration, DEPTH_CAPACITY, DepthRecord, DepthSource, with_depth};
 use cobra_train::calibrate::{
-    Aim, PrecisionRecall, Roc, calibrate, precision_recall_svg, reliability, reliability_svg,
-    roc_svg,
+    Aim, CalibrateError, PrecisionRecall, Roc, calibrate, precision_recall_svg, reliability,
+    reliability_svg, roc_svg,
 };
 use cobra_train::output::write_whole;
 use document::Found;
@@ -106,7 +106,8 @@ fn find<'a>(
         let report = arguments.labelled.as_ref().unwrap_or(&arguments.template);
         Failure::BadInput(format!("{}: {what}", report.display()))
     };
-    let thresholds = calibrate(labelled, aim).map_err(|error| refuse(&error.to_string()))?;
+    let thresholds = calibrate(labelled, aim)
+        .map_err(|error| refuse(&format!("{error}{}", way_out(arguments, &error))))?;
     let (roc, precision_recall) = Roc::new(labelled)
         .zip(PrecisionRecall::new(labelled))
         .ok_or_else(|| refuse("there must be right and wrong estimates"))?;
@@ -133,6 +134,21 @@ fn find<'a>(
         bins: reliability(labelled),
         evidence,
     })
+}
+
+/// What to do about too few estimates.
+fn way_out(arguments: &CalibrateArguments, error: &CalibrateError) -> String {
+    let CalibrateError::TooFew { found, needed, .. } = error else {
+        return String::new();
+    };
+    match arguments.simulate {
+        // Some more, because the shares of right and wrong ones are drawn too.
+        Some(count) => {
+            let enough = 1.1 * f64::from(count) * *needed as f64 / (*found).max(1) as f64;
+            format!("; raise --simulate to about {enough:.0}")
+        }
+        None => "; give more, ask for a larger share, or --simulate them".to_owned(),
+    }
 }
 
 /// The template's bytes with the thresholds in them.

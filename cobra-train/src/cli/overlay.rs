@@ -22,7 +22,7 @@ use cobra_train::overlay::{Evidence, Overlay, OverlayEstimate, draw};
 use cobra_train::progress::Progress;
 use cobra_train::train::LARGEST_TEMPLATE;
 use nalgebra::Point3;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What there is to draw.
 struct Shown {
@@ -37,6 +37,7 @@ pub(super) fn run(arguments: &OverlayArguments, terminal: &Terminal) -> Result<(
     let mut written = vec![arguments.output.as_path()];
     written.extend(arguments.residuals.as_deref());
     outputs::check(&inputs(arguments), &written)?;
+    outputs::check_folders(&folders(arguments), &written)?;
     let shown = match (&arguments.bop.dataset, &arguments.template) {
         (Some(dataset), _) => bop::read(dataset, &arguments.bop, terminal)?,
         (None, Some(template)) => files::read(template, &arguments.files, terminal)?,
@@ -84,6 +85,14 @@ fn inputs(arguments: &OverlayArguments) -> Vec<&Path> {
         &files.mask,
     ];
     named.into_iter().filter_map(Option::as_deref).collect()
+}
+
+/// And the folders.
+fn folders(arguments: &OverlayArguments) -> Vec<PathBuf> {
+    let bop = &arguments.bop;
+    let dataset = bop.dataset.iter();
+    let read = dataset.flat_map(|dataset| outputs::read_of(dataset, &bop.split));
+    read.chain(bop.templates.clone()).collect()
 }
 
 /// What is known of an image.

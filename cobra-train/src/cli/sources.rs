@@ -51,6 +51,17 @@ impl SourceArguments {
         }
     }
 
+    /// Refuses a folder of masks that is none.
+    pub(super) fn check_masks(&self) -> Result<(), Failure> {
+        match &self.masks {
+            Some(Masks::Folder(folder)) if !folder.is_dir() => Err(Failure::Usage(format!(
+                "--masks: expected simulated, silhouette or a folder, found {}, which is none",
+                folder.display()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
     /// The masks that were asked for, else the data set's own where this scene has some.
     pub(super) fn masks(&self, dataset: &Dataset, scene: Option<u32>) -> Masks {
         match &self.masks {

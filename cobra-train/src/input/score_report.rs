@@ -20,7 +20,7 @@ pub struct ReportedEstimate {
     /// Its row in the results file.
     pub row: u64,
     /// The object's id.
-    pub object: u64,
+    pub object: Option<u64>,
     /// Its score, from 0 to 1; none where it could not be scored.
     pub scored: Option<ScoredEstimate>,
     /// Whether it is right, where the truth is known.
@@ -149,7 +149,10 @@ fn estimate(place: &str, entry: &Value) -> Result<ReportedEstimate, Misfit> {
     };
     Ok(ReportedEstimate {
         row: whole("row")?,
-        object: whole("obj_id")?,
+        object: match entry.get("obj_id") {
+            Some(Value::Null) => None,
+            _ => Some(whole("obj_id")?),
+        },
         scored,
         right,
     })
@@ -185,7 +188,7 @@ mod tests {
             minimum_points: Some(10),
         };
         assert_eq!((first.scored, first.right), (Some(scored), Some(true)));
-        assert_eq!((first.row, first.object), (2, 1));
+        assert_eq!((first.row, first.object), (2, Some(1)));
         assert_eq!((second.scored, second.right), (None, None));
         assert_eq!(third.scored.map(|scored| scored.confidence), Some(0.0));
         assert_eq!(third.scored.map(|scored| scored.minimum_points), Some(None));

@@ -153,6 +153,58 @@ fn templates_of_all_models_are_trained_and_what_is_no_mesh_is_left_out() {
     assert_eq!(template.name(), "obj_000001");
     assert!(template.depth().is_some());
     assert!(!scene.path("new/obj_000002.cobra").exists());
+
+    // Thresholds of another object do not get into it.
+    scene.write("report.json", r#"{"estimates": []}"#);
+    let words =
+        "calibrate @new/obj_000001.cobra --labelled @report.json --false-accept 0.1 --object 5";
+    let words: Vec<&str> = words.split(' ').collect();
+    let said = ["is of object 1, and --object says 5"];
+    crate::run::refuse(scene.arguments(&words), 2, &said);
+}
+
+#[test]
+fn nothing_that_is_read_is_replaced_and_folders_that_are_none_are_told_once() {
+    let scene = dataset();
+    let words = |more: &[&str]| {
+        let words = "bop score --dataset @set --results @results.csv --depth simulated";
+        let words: Vec<&str> = words.split(' ').chain(more.iter().copied()).collect();
+        scene.arguments(&words)
+    };
+    for output in [
+        "@set/test/000002/scene_gt.json",
+        "@set/camera.json",
+        "@set/models/obj_000001.ply",
+        "@t/obj_000001.cobra",
+    ] {
+        for option in ["-o", "--report"] {
+            let mut more = vec!["--templates", "@t", option, output];
+            if option != "-o" {
+                more.extend(["-o", "@new.csv"]);
+            }
+            let said = ["would be replaced", "which is an input"];
+            crate::run::refuse(words(&more), 2, &said);
+        }
+    }
+    let more = ["--templates", "@t", "-o", "@set/rescored.csv"];
+    for _ in 0..2 {
+        succeed(words(&more));
+    }
+    let more = ["--templates", "@none", "-o", "@new.csv"];
+    crate::run::refuse(words(&more), 4, &["none", "No such file"]);
+    let more = [
+        "--templates",
+        "@t",
+        "-o",
+        "@new.csv",
+        "--masks",
+        "Simulated",
+    ];
+    crate::run::refuse(
+        words(&more),
+        2,
+        &["expected simulated, silhouette or a folder"],
+    );
 }
 
 #[test]

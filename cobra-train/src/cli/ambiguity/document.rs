@@ -207,7 +207,8 @@ impl Found<'_> {
             text += &format!("\n{}\n", table(&header, &["motion", "stated"], &rows));
             let more = all.found.len().saturating_sub(SHOWN);
             if more > 0 {
-                text += &format!("and {more} more, in as many views or fewer: --json has them all\n");
+                text +=
+                    &format!("and {more} more, in as many views or fewer: --json has them all\n");
             }
         }
         format!("{text}\n{}", self.conclusion())

@@ -17,9 +17,14 @@ use std::path::Path;
 
 pub(super) fn run(arguments: &BopScoreArguments, terminal: &Terminal) -> Result<(), Failure> {
     let depth = arguments.sources.depth()?;
+    arguments.sources.check_masks()?;
     let mut written = vec![arguments.output.as_path()];
     written.extend(outputs::named_file(arguments.report.as_ref()));
     outputs::check(&[&arguments.results], &written)?;
+    let mut read = outputs::read_of(&arguments.dataset, &arguments.split);
+    read.push(arguments.templates.clone());
+    outputs::check_folders(&read, &written)?;
+    template_folder(&arguments.templates)?;
     let results = read_results(&arguments.results)?;
     let dataset = Dataset::open(&arguments.dataset, &arguments.split)?;
     let estimates = results
@@ -67,6 +72,18 @@ pub(super) fn run(arguments: &BopScoreArguments, terminal: &Terminal) -> Result<
         terminal.print(&summary::text(&scored))?;
     }
     missing.failure(&arguments.results, scored.len())
+}
+
+/// One line for a folder that is not there, in the place of one for each object.
+fn template_folder(folder: &Path) -> Result<(), Failure> {
+    match std::fs::metadata(folder) {
+        Ok(found) if found.is_dir() => Ok(()),
+        Ok(_) => Err(Failure::BadInput(format!(
+            "{}: expected a folder of templates, found a file",
+            folder.display()
+        ))),
+        Err(error) => Err(Failure::Io(format!("{}: {error}", folder.display()))),
+    }
 }
 
 /// How many rows something was not done for.

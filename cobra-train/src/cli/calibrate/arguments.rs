@@ -1,11 +1,12 @@
 //! The arguments of `cobra calibrate`.
 
 use crate::cli::choices::not_negative;
-use clap::{Args, ValueEnum};
+use clap::{ArgGroup, Args, ValueEnum};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(
+    group(ArgGroup::new("evidence").args(["labelled", "simulate"]).required(true)),
     after_help = "The report is what cobra bop score --report writes, of the same templates and \
                   settings that will score on the robot: its estimates, their confidences, and which \
                   of them are right; its lengths are in millimetres. Wrong estimates reach the threshold to accept \
@@ -23,15 +24,10 @@ pub(crate) struct CalibrateArguments {
     #[arg(value_name = "FILE.cobra")]
     pub(crate) template: PathBuf,
 
-    // One of the two is required. What goes with --simulate conflicts with the other: a `requires` would not do,
+    // What goes with --simulate conflicts with the other: a `requires` would not do,
     // which clap passes over where the option that is required conflicts with one that is there.
     /// Report of scored estimates with their truth
-    #[arg(
-        long,
-        value_name = "REPORT.json",
-        required_unless_present = "simulate",
-        conflicts_with_all = ["simulate", "mesh", "masks", "depth_noise", "symmetric", "seed"]
-    )]
+    #[arg(long, value_name = "REPORT.json", conflicts_with_all = ["mesh", "masks", "depth_noise", "symmetric", "seed"])]
     pub(crate) labelled: Option<PathBuf>,
 
     /// Simulate so many estimates of the object, and score them against simulated depth

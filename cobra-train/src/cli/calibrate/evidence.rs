@@ -35,17 +35,31 @@ pub(super) fn evidence(
     terminal: &Terminal,
 ) -> Result<Evidence, Failure> {
     match (&arguments.labelled, arguments.simulate) {
-        (Some(path), _) => labelled(arguments, path, terminal),
+        (Some(path), _) => labelled(arguments, template, path, terminal),
         (None, count) => simulated::evidence(arguments, template, count.unwrap_or(0), terminal),
     }
 }
 
+/// The object that a template is named after, as `cobra bop train` names them.
+fn named_object(name: &str) -> Option<u64> {
+    name.strip_prefix("obj_")?.parse().ok()
+}
+
 fn labelled(
     arguments: &CalibrateArguments,
+    template: &Template<'_>,
     path: &Path,
     terminal: &Terminal,
 ) -> Result<Evidence, Failure> {
     let report = read_score_report(path)?;
+    if let (Some(id), Some(named)) = (arguments.object, named_object(template.name()))
+        && id != named
+    {
+        return Err(Failure::Usage(format!(
+            "{} is of object {named}, and --object says {id}",
+            arguments.template.display()
+        )));
+    }
     let (labelled, left_out) = select(&report.estimates, arguments, path)?;
     for (count, why) in [
         (left_out.other_objects, "of another object"),
@@ -78,7 +92,10 @@ fn select(
     let mut stricter: Option<(u64, u32)> = None;
     let mut labelled = Vec::with_capacity(estimates.len());
     for estimate in estimates {
-        if arguments.object.is_some_and(|id| id != estimate.object) {
+        if arguments
+            .object
+            .is_some_and(|id| Some(id) != estimate.object)
+        {
             left_out.other_objects += 1;
             continue;
         }

@@ -12,7 +12,8 @@ use cobra_train::bop::render::DepthNoise;
 use cobra_train::depth::template_surface;
 use cobra_train::progress::Progress;
 use cobra_train::simulation::{Simulation, SimulationError, simulate};
-use cobra_train::surface::read_mesh;
+use cobra_train::surface::{Mesh, read_mesh};
+use std::path::Path;
 
 pub(super) fn evidence(
     arguments: &CalibrateArguments,
@@ -24,6 +25,9 @@ pub(super) fn evidence(
         Failure::BadInput(format!("{}: {error}", arguments.template.display()))
     };
     let mesh = arguments.mesh.as_deref().map(read_mesh).transpose()?;
+    if let (Some(mesh), Some(path)) = (&mesh, &arguments.mesh) {
+        check_diameter(template, mesh, path)?;
+    }
     let mut room = vec![DecodedTerm::default(); template.decoded_len()];
     let decoded = template.decoded(&mut room);
     let template = decoded.as_ref().unwrap_or(template);
@@ -71,4 +75,20 @@ pub(super) fn evidence(
             None => shortened(format!("{seen}, {pixels}, {sensor} mm")),
         },
     })
+}
+
+/// A mesh whose diameter differs from the template's by more than this share is of another object.
+const DIAMETER: f64 = 0.05;
+
+fn check_diameter(template: &Template<'_>, mesh: &Mesh, path: &Path) -> Result<(), Failure> {
+    let expected = f64::from(template.diameter());
+    let found = mesh.diameter();
+    if (found / expected - 1.0).abs() <= DIAMETER {
+        return Ok(());
+    }
+    Err(Failure::BadInput(format!(
+        "{}: expected the template's object, with a diameter of {expected:.1} {unit}, found one of {found:.1}",
+        path.display(),
+        unit = template.unit().symbol()
+    )))
 }

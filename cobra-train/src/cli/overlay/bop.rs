@@ -32,6 +32,7 @@ pub(super) fn read(
     terminal: &Terminal,
 ) -> Result<Shown, Failure> {
     let depth = arguments.sources.depth()?;
+    arguments.sources.check_masks()?;
     let dataset = Dataset::open(folder, &arguments.split)?;
     let results = match &arguments.results {
         Some(path) => Some((path.as_path(), read_results(path)?)),
