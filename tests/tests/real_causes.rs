@@ -206,7 +206,7 @@ const fn kind(
 
 const KINDS: [Kind; 16] = [
     kind("right", &["fits", "hidden"], 8, 8),
-    kind("half hidden", &["fits", "hidden", "in front"], 8, 8),
+    kind("half hidden", &["fits", "hidden", "in front"], 8, 7),
     kind("covered", &["in front", "hidden"], 8, 8),
     kind("40 mm too far", &["along"], 7, 6),
     kind("40 mm too near", &["along"], 6, 6),

@@ -127,6 +127,9 @@ const EXPLAINED: f32 = 0.7;
 /// Of more than this many: it does not.
 const UNEXPLAINED: f32 = 1.6;
 
+/// A mask whose pixels have less than this mean likelihood does not show the object at the pose.
+const LEAST_FORWARD: f32 = 0.5;
+
 /// With fewer pixels refinement explains nothing.
 const FEWEST: u32 = 10;
 
@@ -161,8 +164,9 @@ impl DepthReport {
         if looked_at == 0.0 {
             return Cause::Unmeasured;
         }
-        // Pixels that nothing of the visible surface lies on are a mask's: it sees the object elsewhere.
-        let masked_elsewhere = self.pixels >= FEWEST && self.pixels > self.judged;
+        // More pixels than points of the surface are a mask's: where they do not fit, the object is elsewhere.
+        let masked = self.pixels >= FEWEST && self.pixels > self.judged;
+        let masked_elsewhere = masked && self.forward < LEAST_FORWARD;
         if hidden >= 0.9 * looked_at {
             return match () {
                 () if !masked_elsewhere => Cause::InFront,

@@ -227,6 +227,8 @@ pub fn find_ambiguities<S: Surface + Sync>(
     let mut found: Vec<Ambiguity> = families.iter().map(|f| measure.family(f)).collect();
     found.sort_by_key(|ambiguity| std::cmp::Reverse(ambiguity.views));
     found.extend(clusters.iter().map(|cluster| measure.cluster(cluster)));
+    // The search measures on fewer points.
+    found.retain(|ambiguity| ambiguity.add >= gauge.limit());
     let least = judge
         .views
         .iter()

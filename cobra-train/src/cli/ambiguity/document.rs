@@ -191,7 +191,8 @@ impl Found<'_> {
             self.masks()
         );
         if !all.found.is_empty() {
-            let rows: Vec<Vec<String>> = all.found.iter().map(|found| self.row(found)).collect();
+            let shown = all.found.iter().take(SHOWN);
+            let rows: Vec<Vec<String>> = shown.map(|found| self.row(found)).collect();
             let mut header = vec![
                 "motion",
                 "views",
@@ -204,6 +205,10 @@ impl Found<'_> {
                 header.extend(["MSSD, symmetries", "stated"]);
             }
             text += &format!("\n{}\n", table(&header, &["motion", "stated"], &rows));
+            let more = all.found.len().saturating_sub(SHOWN);
+            if more > 0 {
+                text += &format!("and {more} more, in as many views or fewer: --json has them all\n");
+            }
         }
         format!("{text}\n{}", self.conclusion())
     }
@@ -241,9 +246,12 @@ impl Found<'_> {
                 mm * all.limit
             )),
             Some(worst) => sentences.push(format!(
-                "Shape cannot tell these apart: ADD up to {:.1} mm at a confidence of {:.2}.",
+                "Shape cannot tell these apart: ADD up to {:.1} mm, confidences up to {:.2}.",
                 mm * worst.add,
-                worst.confidence
+                all.found
+                    .iter()
+                    .map(|found| found.confidence)
+                    .fold(0.0, f64::max)
             )),
         }
         let unstated = || all.found.iter().filter(|found| found.stated != Some(true));
@@ -276,9 +284,12 @@ impl Found<'_> {
                 "{told_apart} of {stated} that models_info states not found: the check tells it apart."
             ));
         }
-        sentences.join(" ")
+        sentences.join("\n")
     }
 }
+
+/// So many are printed.
+const SHOWN: usize = 12;
 
 /// That of the largest ADD.
 fn worst<'a>(found: impl Iterator<Item = &'a Ambiguity>) -> Option<&'a Ambiguity> {
