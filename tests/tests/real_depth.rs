@@ -71,7 +71,7 @@ fn score(data: &Path, rows: Vec<Row>, masks: Masks, depth: DepthSource) -> Vec<S
 }
 
 fn a_third(image: u32) -> bool {
-    image % 3 == 0
+    image.is_multiple_of(3)
 }
 
 /// A third of all estimates, scored by the templates; once for all tests.
@@ -122,7 +122,7 @@ fn confidences_of_real_estimates_tell_right_from_wrong() {
 
 /// Of these images the mesh is scored besides: some of those that the templates are scored on, to save time.
 fn of_the_mesh(image: u32) -> bool {
-    image % 12 == 0
+    image.is_multiple_of(12)
 }
 
 #[test]

@@ -4,7 +4,7 @@ use crate::surface::{Mesh, RayCaster, sample_poisson};
 use cobra_infer::depth::{Nearby, Surface};
 use nalgebra::Point3;
 
-/// How many points of the mesh the depth buffer is filled with: √(area/6000) apart or so, 1.6 % of the diameter on
+/// How many points of the mesh the depth buffer is filled with: √(area/6000) apart or so, 2.3 % of the diameter on
 /// a sphere.
 const SAMPLES: usize = 6_000;
 
@@ -65,8 +65,7 @@ impl Surface for MeshSurface {
         })
     }
 
-    /// Always the same [`SAMPLES`] points, whatever the spacing: a caller that asks for closer ones does not get
-    /// them.
+    /// Always the same 6,000 points, whatever the spacing: a caller that asks for closer ones does not get them.
     fn sample(&self, _: f32, take: &mut impl FnMut(Option<&Point3<f32>>)) {
         self.points.iter().map(Some).for_each(take);
     }

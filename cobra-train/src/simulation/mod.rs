@@ -6,7 +6,7 @@
 //!
 //! A scene is the object in a random rotation, 4 to 10 diameters before a camera of 640 × 480 pixels and a
 //! focal length of 570, in front of a plane; in half of the scenes a wall in front hides up to 70 % of the
-//! square around the object. Each is used for [`ESTIMATES_PER_SCENE`] estimates, which differ from the truth
+//! square around the object. Each is used for five estimates, which differ from the truth
 //! by a turn about the object's middle and a shift whose sizes are spread evenly over the logarithms from 1 %
 //! to 100 % of the diameter: about 45 % of them are off by more than a tenth of it.
 
