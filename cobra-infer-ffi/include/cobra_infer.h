@@ -30,7 +30,7 @@
 /**
  * Bytes that hold a template's handle on every processor.
  */
-#define COBRA_TEMPLATE_SIZE 176
+#define COBRA_TEMPLATE_SIZE 192
 
 /**
  * Alignment of a template's handle on every processor.
@@ -58,6 +58,17 @@
 #define COBRA_NOT_APPLICABLE 4294967295
 
 /**
+ * Bytes of scratch memory that a check takes for each cell of its depth buffer, which has
+ * `side` by `side` of them.
+ */
+#define COBRA_DEPTH_CELL_SIZE 4
+
+/**
+ * Alignment of that memory.
+ */
+#define COBRA_DEPTH_ALIGN 4
+
+/**
  * What a call came to. Every function but the ones that only tell a size, a text or a constant
  * returns one.
  *
@@ -81,7 +92,7 @@ enum CobraStatus
    */
   COBRA_STATUS_MISALIGNED = 2,
   /**
-   * The memory for a handle is smaller than the handle.
+   * The memory for a handle is smaller than the handle, or that for a depth buffer too small.
    */
   COBRA_STATUS_MEMORY_TOO_SMALL = 3,
   /**
@@ -245,6 +256,10 @@ enum CobraStatus
    */
   COBRA_STATUS_TEMPLATE_MAP_GRID = 136,
   /**
+   * A number of the depth section is out of its range.
+   */
+  COBRA_STATUS_TEMPLATE_DEPTH_NUMBER = 137,
+  /**
    * An entry of the camera matrix is not finite.
    */
   COBRA_STATUS_CAMERA_NOT_FINITE = 200,
@@ -304,6 +319,38 @@ enum CobraStatus
    * The settings' `threshold` is no CobraThreshold.
    */
   COBRA_STATUS_SETTINGS_THRESHOLD = 407,
+  /**
+   * The depth settings' `noise_kind` is no CobraNoiseKind.
+   */
+  COBRA_STATUS_SETTINGS_NOISE_KIND = 408,
+  /**
+   * The depth settings' `has_thresholds` is neither 0 nor 1.
+   */
+  COBRA_STATUS_SETTINGS_HAS_THRESHOLDS = 409,
+  /**
+   * The template's components may speak everywhere: it does not say where its surface is.
+   */
+  COBRA_STATUS_DEPTH_NO_VALIDITY = 500,
+  /**
+   * The measurement noise is not a positive number at the object's depth.
+   */
+  COBRA_STATUS_DEPTH_NOISE = 501,
+  /**
+   * The depth buffer has fewer than 8 or more than 256 cells along a side.
+   */
+  COBRA_STATUS_DEPTH_SIDE = 502,
+  /**
+   * Refinement has no pixel a step.
+   */
+  COBRA_STATUS_DEPTH_STEP_PIXELS = 503,
+  /**
+   * The thresholds are not 0 <= reject <= accept <= 1.
+   */
+  COBRA_STATUS_DEPTH_THRESHOLDS = 504,
+  /**
+   * The depth image has no column, or its scale is not a positive number.
+   */
+  COBRA_STATUS_DEPTH_IMAGE = 505,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -423,12 +470,90 @@ enum CobraReason
    * Undecided: the threshold is zero, the tolerance is immense against sigma.
    */
   COBRA_REASON_NO_THRESHOLD = 9,
+  /**
+   * Undecided: something in front hides the object.
+   */
+  COBRA_REASON_HIDDEN = 10,
+  /**
+   * Undecided: no threshold is known, calibrate first.
+   */
+  COBRA_REASON_NOT_CALIBRATED = 11,
+  /**
+   * Undecided: the confidence lies between the thresholds.
+   */
+  COBRA_REASON_BETWEEN_THRESHOLDS = 12,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum CobraReason CobraReason;
 #else
 typedef uint32_t CobraReason;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Why a pose fits as it does: a hint for people, which no decision depends on. New causes are
+ * appended.
+ */
+enum CobraCause
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * The call failed, nothing was checked.
+   */
+  COBRA_CAUSE_NOT_CHECKED = 0,
+  /**
+   * Nothing stands out.
+   */
+  COBRA_CAUSE_FITS = 1,
+  /**
+   * The object would lie behind the camera, or around it.
+   */
+  COBRA_CAUSE_BEHIND_CAMERA = 2,
+  /**
+   * Measured depths are `cause_value` times those that the pose says, a ratio of units.
+   */
+  COBRA_CAUSE_SCALE = 3,
+  /**
+   * Another object stands in front of nearly all of it.
+   */
+  COBRA_CAUSE_IN_FRONT = 4,
+  /**
+   * The camera sees past most of what would have to hide the background.
+   */
+  COBRA_CAUSE_SEEN_THROUGH = 5,
+  /**
+   * It would have to move along the camera's ray by `cause_value`, negative towards the camera.
+   */
+  COBRA_CAUSE_ALONG_RAY = 6,
+  /**
+   * It would have to move across the ray by `cause_value`.
+   */
+  COBRA_CAUSE_SIDEWAYS = 7,
+  /**
+   * It would have to turn by `cause_value`, in radians.
+   */
+  COBRA_CAUSE_TURNED = 8,
+  /**
+   * What was observed lies on the surface, and the pose does not: refinement finds no way there.
+   */
+  COBRA_CAUSE_ELSEWHERE = 9,
+  /**
+   * Little of it can be seen behind something else.
+   */
+  COBRA_CAUSE_HIDDEN = 10,
+  /**
+   * Nothing was measured where it must be seen, or that lies outside of the image.
+   */
+  COBRA_CAUSE_UNMEASURED = 11,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum CobraCause CobraCause;
+#else
+typedef uint32_t CobraCause;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -537,6 +662,31 @@ enum CobraThreshold
 typedef enum CobraThreshold CobraThreshold;
 #else
 typedef uint32_t CobraThreshold;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What the noise of a measurement follows.
+ */
+enum CobraNoiseKind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * A share of the object's diameter: `noise_share`.
+   */
+  COBRA_NOISE_KIND_SHARE = 0,
+  /**
+   * The sensor: noise_constant + noise_linear z + noise_quadratic z^2 at the object's depth z.
+   */
+  COBRA_NOISE_KIND_SENSOR = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum CobraNoiseKind CobraNoiseKind;
+#else
+typedef uint32_t CobraNoiseKind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -763,6 +913,220 @@ typedef struct CobraReport {
   uint32_t uncovered;
 } CobraReport;
 
+/**
+ * How a pose is checked against depth. Fill it with `cobra_depth_settings_default` and change what
+ * is to be changed: one that is all zeros is refused, because its depth buffer has no cells.
+ */
+typedef struct CobraDepthSettings {
+  /**
+   * A CobraNoiseKind.
+   */
+  uint32_t noise_kind;
+  /**
+   * The share of the diameter, above 0.
+   */
+  float noise_share;
+  /**
+   * Of the sensor's noise, in the template's unit.
+   */
+  float noise_constant;
+  /**
+   * Of the sensor's noise, a share of the depth.
+   */
+  float noise_linear;
+  /**
+   * Of the sensor's noise, in 1/unit.
+   */
+  float noise_quadratic;
+  /**
+   * Whether there are thresholds, 0 or 1; without them no pose is accepted.
+   */
+  uint32_t has_thresholds;
+  /**
+   * From this confidence on a pose is accepted.
+   */
+  float accept;
+  /**
+   * Below this it is rejected; not above `accept`.
+   */
+  float reject;
+  /**
+   * With fewer observed pixels, or fewer points of the surface that the depth says something of,
+   * the decision is undecided.
+   */
+  uint32_t minimum_points;
+  /**
+   * Cells along a side of the depth buffer, 8 to 256.
+   */
+  uint16_t side;
+  /**
+   * How often the pose is refined.
+   */
+  uint16_t steps;
+  /**
+   * How many observed pixels a step uses at most, at least 1.
+   */
+  uint16_t step_pixels;
+} CobraDepthSettings;
+
+/**
+ * A pixel that shows the object, as a mask says, and the depth measured there.
+ */
+typedef struct CobraDepthPixel {
+  /**
+   * Column, from 0; pixel centres are at integers.
+   */
+  uint16_t column;
+  /**
+   * Row, from 0.
+   */
+  uint16_t row;
+  /**
+   * The depth along the camera's axis, in the template's unit; 0 where nothing was measured.
+   */
+  float depth;
+} CobraDepthPixel;
+
+/**
+ * What was observed.
+ */
+typedef struct CobraDepthObserved {
+  /**
+   * The object's pixels; NULL for those in which the pose itself says that it is seen.
+   */
+  const struct CobraDepthPixel *pixels;
+  /**
+   * How many there are; 0 with NULL.
+   */
+  size_t pixel_count;
+  /**
+   * The depth image, `height` rows of `width` words behind each other; 0 where nothing was
+   * measured.
+   */
+  const uint16_t *words;
+  /**
+   * Columns, at least 1.
+   */
+  uint16_t width;
+  /**
+   * Rows.
+   */
+  uint16_t height;
+  /**
+   * What a word is multiplied by to be in the template's unit, above 0.
+   */
+  float scale;
+  /**
+   * Called with `context` at least once every 64 pixels, cells, or places where a point of the surface
+   * may be: where a watchdog can be fed. NULL for nobody.
+   */
+  void (*alive)(void*);
+  /**
+   * What `alive` is called with.
+   */
+  void *context;
+} CobraDepthObserved;
+
+/**
+ * The answer of a check against depth. None of its numbers is ever NaN; lengths are in the
+ * template's unit.
+ */
+typedef struct CobraDepthReport {
+  /**
+   * exp(-estimated_error^2/2 noise^2), the least of three likelihoods, from 0 to 1; 0 where it would rest on
+   * fewer than `minimum_points`.
+   */
+  float confidence;
+  /**
+   * The mean likelihood of the observed pixels, put back onto the surface.
+   */
+  float forward;
+  /**
+   * The mean likelihood of the surface that must be visible.
+   */
+  float reverse;
+  /**
+   * How far the pose is estimated to be off.
+   */
+  float estimated_error;
+  /**
+   * How far refinement moves the object's points, on average.
+   */
+  float displacement;
+  /**
+   * The rms distance of the observed pixels from the surface after refinement.
+   */
+  float residual;
+  /**
+   * The standard deviation that distances were compared with.
+   */
+  float noise;
+  /**
+   * Measured depths over those that the pose says; 0 without any.
+   */
+  float depth_ratio;
+  /**
+   * The pose that refinement leads to: a suggestion.
+   */
+  struct CobraPose refined;
+  /**
+   * How many observed pixels had a depth.
+   */
+  uint32_t pixels;
+  /**
+   * How many of them nothing of the surface spoke for.
+   */
+  uint32_t silent;
+  /**
+   * How many points of the surface must be visible.
+   */
+  uint32_t visible;
+  /**
+   * How many of them were evidence, for or against.
+   */
+  uint32_t judged;
+  /**
+   * How many were hidden by something nearer.
+   */
+  uint32_t hidden;
+  /**
+   * How many lie outside of the image or where nothing was measured.
+   */
+  uint32_t unmeasured;
+  /**
+   * How many of the judged ones the camera saw through.
+   */
+  uint32_t seen_through;
+  /**
+   * What to do.
+   */
+  CobraDecision decision;
+  /**
+   * Why.
+   */
+  CobraReason reason;
+  /**
+   * Why the pose fits as it does.
+   */
+  CobraCause cause;
+  /**
+   * The cause's number, where it has one, else 0.
+   */
+  float cause_value;
+  /**
+   * How far refinement moves the object's middle away from the camera along its ray.
+   */
+  float moved_along_ray;
+  /**
+   * How far across the ray.
+   */
+  float moved_sideways;
+  /**
+   * By what angle it turns the object, in radians.
+   */
+  float turned;
+} CobraDepthReport;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -911,6 +1275,51 @@ CobraStatus cobra_scorer_push(struct CobraScorer *scorer,
 CobraStatus cobra_scorer_finish(const struct CobraScorer *scorer, struct CobraReport *report);
 
 /**
+ * What the template knows: its measurement noise, and its thresholds where it was calibrated. The
+ * rest: a depth buffer of 32 by 32 cells, four steps on at most 150 pixels; at least 10 points, or as many
+ * as it was calibrated with.
+ *
+ * # Safety
+ * `template` was loaded and its bytes are still there; `out` points to a CobraDepthSettings.
+ */
+CobraStatus cobra_depth_settings_default(const struct CobraTemplate *template_,
+                                         struct CobraDepthSettings *out);
+
+/**
+ * Exactly how many bytes of scratch memory `cobra_depth_check` needs with these settings, into
+ * `out`; 0 when the call fails. It is `COBRA_DEPTH_CELL_SIZE` for each of the buffer's cells.
+ *
+ * # Safety
+ * `settings` points to a CobraDepthSettings, `out` to a size_t.
+ */
+CobraStatus cobra_depth_memory_size(const struct CobraDepthSettings *settings, size_t *out);
+
+/**
+ * Exactly how those bytes must be aligned.
+ */
+size_t cobra_depth_memory_align(void);
+
+/**
+ * Checks a pose against what a depth camera saw, both ways: whether the observed pixels lie on the
+ * object's surface, and whether the surface that the pose says is visible was seen. When the call
+ * fails and `report` can be written, it says undecided. Nothing is kept: the memory, whatever it
+ * holds, is scratch, and free again when the call returns.
+ *
+ * # Safety
+ * `memory` points to `memory_size` writable bytes that nobody uses meanwhile; `template` was loaded
+ * and its bytes are still there; the other pointers, those in `observed` too, point to what their
+ * types say.
+ */
+CobraStatus cobra_depth_check(void *memory,
+                              size_t memory_size,
+                              const struct CobraTemplate *template_,
+                              const struct CobraCamera *camera,
+                              const struct CobraPose *pose,
+                              const struct CobraDepthSettings *settings,
+                              const struct CobraDepthObserved *observed,
+                              struct CobraDepthReport *report);
+
+/**
  * What a status says, as a phrase. Never NULL, also for a number that is no CobraStatus.
  */
 const char *cobra_status_string(uint32_t status);
@@ -924,6 +1333,12 @@ const char *cobra_decision_string(uint32_t decision);
  * What a reason says, as a phrase. Never NULL, also for a number that is no CobraReason.
  */
 const char *cobra_reason_string(uint32_t reason);
+
+/**
+ * What a cause says, as a phrase; its number is in the report. Never NULL, also for a number that is
+ * no CobraCause.
+ */
+const char *cobra_cause_string(uint32_t cause);
 
 #ifdef __cplusplus
 }  // extern "C"

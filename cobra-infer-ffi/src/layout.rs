@@ -9,7 +9,7 @@ use cobra_infer::template::NAME_CAPACITY;
 pub const COBRA_NAME_SIZE: usize = 33;
 
 /// Bytes that hold a template's handle on every processor.
-pub const COBRA_TEMPLATE_SIZE: usize = 176;
+pub const COBRA_TEMPLATE_SIZE: usize = 192;
 
 /// Alignment of a template's handle on every processor.
 pub const COBRA_TEMPLATE_ALIGN: usize = 8;

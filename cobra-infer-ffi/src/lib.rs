@@ -13,6 +13,7 @@
 //! | [`template`] | loading a template and asking about it |
 //! | [`camera`] | checks of lens distortion, repair of rotations |
 //! | [`scorer`] | scoring one pose |
+//! | [`mod@depth`] | checking one pose against a depth image; what it needs and tells: [`depth_types`] |
 //! | [`layout`] | how much memory handles need |
 //! | `panic` | the panic handler of bare metal |
 #![cfg_attr(target_os = "none", no_std)]
@@ -28,6 +29,8 @@
 )]
 
 pub mod camera;
+pub mod depth;
+pub mod depth_types;
 pub mod layout;
 #[cfg(target_os = "none")]
 mod panic;

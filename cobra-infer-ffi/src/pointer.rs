@@ -6,6 +6,7 @@
 #![allow(unsafe_code, reason = "raw pointers come from C")]
 
 use crate::status::CobraStatus;
+use cobra_infer::depth::Cell;
 use core::ffi::c_void;
 use core::ptr;
 
@@ -39,6 +40,11 @@ impl Region {
         let end = start.checked_add(bytes);
         let end = end.ok_or(CobraStatus::LengthTooLarge)?;
         Ok(Self { start, end })
+    }
+
+    /// Of a slice.
+    pub(crate) fn of<T>(slice: &[T]) -> Result<Self, CobraStatus> {
+        Self::new(slice.as_ptr(), size_of_val(slice))
     }
 
     fn overlaps(self, other: Self) -> bool {
@@ -179,6 +185,37 @@ pub(crate) unsafe fn claim<H: Handle>(
     // SAFETY: inside the memory, which is aligned, large enough and, the caller's promise, writable.
     unsafe { seal(place).write(0) };
     Ok(Claimed { place, out })
+}
+
+/// Takes the caller's memory for `count` cells, which then hold nothing.
+///
+/// # Safety
+/// `memory` is NULL, misaligned, or points to `size` bytes that may be written and that nobody else uses for
+/// as long as the slice is used.
+pub(crate) unsafe fn scratch<'a>(
+    memory: *mut c_void,
+    size: usize,
+    count: usize,
+    borrowed: &[Region],
+) -> Result<&'a mut [Cell], CobraStatus> {
+    let place = memory.cast::<Cell>();
+    usable(place.cast_const())?;
+    let bytes = count
+        .checked_mul(size_of::<Cell>())
+        .ok_or(CobraStatus::LengthTooLarge)?;
+    if size < bytes {
+        return Err(CobraStatus::MemoryTooSmall);
+    }
+    let region = Region::new(place, bytes)?;
+    if borrowed.iter().any(|other| region.overlaps(*other)) {
+        return Err(CobraStatus::Overlap);
+    }
+    for index in 0..count {
+        // SAFETY: inside the memory, which is aligned and large enough, and the caller's promise.
+        unsafe { place.add(index).write(Cell::EMPTY) };
+    }
+    // SAFETY: just initialised; the rest is the caller's promise.
+    Ok(unsafe { core::slice::from_raw_parts_mut(place, count) })
 }
 
 /// Copies what was built into the claimed memory, seals the handle and tells its caller of it.

@@ -2,6 +2,7 @@
 //!
 //! Needs `cobra-infer` alone, so that a program in Rust can take this file and print the same texts.
 
+use cobra_infer::depth::DepthError;
 use cobra_infer::{CameraError, PoseError, ScoreError, TemplateError};
 use core::ffi::CStr;
 
@@ -19,7 +20,7 @@ pub enum CobraStatus {
     NullPointer = 1,
     /// A pointer is not aligned as its type asks for.
     Misaligned = 2,
-    /// The memory for a handle is smaller than the handle.
+    /// The memory for a handle is smaller than the handle, or that for a depth buffer too small.
     MemoryTooSmall = 3,
     /// Bytes, or the memory for a handle, would reach past the end of the address space.
     LengthTooLarge = 4,
@@ -102,6 +103,8 @@ pub enum CobraStatus {
     TemplateMapValidity = 135,
     /// A component's map has not the nodes, the size or the pole that it must have.
     TemplateMapGrid = 136,
+    /// A number of the depth section is out of its range.
+    TemplateDepthNumber = 137,
 
     /// An entry of the camera matrix is not finite.
     CameraNotFinite = 200,
@@ -135,13 +138,30 @@ pub enum CobraStatus {
     SettingsSigmaKind = 406,
     /// The settings' `threshold` is no CobraThreshold.
     SettingsThreshold = 407,
+    /// The depth settings' `noise_kind` is no CobraNoiseKind.
+    SettingsNoiseKind = 408,
+    /// The depth settings' `has_thresholds` is neither 0 nor 1.
+    SettingsHasThresholds = 409,
+
+    /// The template's components may speak everywhere: it does not say where its surface is.
+    DepthNoValidity = 500,
+    /// The measurement noise is not a positive number at the object's depth.
+    DepthNoise = 501,
+    /// The depth buffer has fewer than 8 or more than 256 cells along a side.
+    DepthSide = 502,
+    /// Refinement has no pixel a step.
+    DepthStepPixels = 503,
+    /// The thresholds are not 0 <= reject <= accept <= 1.
+    DepthThresholds = 504,
+    /// The depth image has no column, or its scale is not a positive number.
+    DepthImage = 505,
 }
 
 use CobraStatus as S;
 
 impl CobraStatus {
     /// Every status, in the order of its number.
-    pub(crate) const ALL: [Self; 59] = [
+    pub(crate) const ALL: [Self; 68] = [
         S::Ok,
         S::NullPointer,
         S::Misaligned,
@@ -186,6 +206,7 @@ impl CobraStatus {
         S::TemplateUnusedCells,
         S::TemplateMapValidity,
         S::TemplateMapGrid,
+        S::TemplateDepthNumber,
         S::CameraNotFinite,
         S::CameraFocalLength,
         S::CameraShape,
@@ -201,6 +222,14 @@ impl CobraStatus {
         S::SettingsAssignment,
         S::SettingsSigmaKind,
         S::SettingsThreshold,
+        S::SettingsNoiseKind,
+        S::SettingsHasThresholds,
+        S::DepthNoValidity,
+        S::DepthNoise,
+        S::DepthSide,
+        S::DepthStepPixels,
+        S::DepthThresholds,
+        S::DepthImage,
     ];
 
     /// The status of a number, if it is one.
@@ -261,6 +290,7 @@ impl CobraStatus {
             S::TemplateMapGrid => {
                 c"a component's map has not the nodes, the size or the pole it must have"
             }
+            S::TemplateDepthNumber => c"a number of the depth section is out of its range",
             S::CameraNotFinite => c"an entry of the camera matrix is not finite",
             S::CameraFocalLength => c"a focal length is not positive",
             S::CameraShape => c"the camera matrix is not (fx s cx; 0 fy cy; 0 0 1)",
@@ -278,6 +308,14 @@ impl CobraStatus {
             S::SettingsAssignment => c"the settings' assignment is none of CobraAssignment",
             S::SettingsSigmaKind => c"the settings' sigma_kind is none of CobraSigmaKind",
             S::SettingsThreshold => c"the settings' threshold is none of CobraThreshold",
+            S::SettingsNoiseKind => c"the depth settings' noise_kind is none of CobraNoiseKind",
+            S::SettingsHasThresholds => c"the depth settings' has_thresholds is neither 0 nor 1",
+            S::DepthNoValidity => c"the template does not say where its surface is",
+            S::DepthNoise => c"the measurement noise is not a positive number",
+            S::DepthSide => c"a depth buffer has 8 to 256 cells along a side",
+            S::DepthStepPixels => c"refinement needs at least one pixel a step",
+            S::DepthThresholds => c"thresholds must be 0 <= reject <= accept <= 1",
+            S::DepthImage => c"the depth image has no column, or no positive scale",
         }
     }
 }
@@ -323,6 +361,7 @@ impl From<TemplateError> for CobraStatus {
             E::UnusedCells { .. } => S::TemplateUnusedCells,
             E::MapValidity => S::TemplateMapValidity,
             E::MapGrid { .. } => S::TemplateMapGrid,
+            E::DepthNumber { .. } => S::TemplateDepthNumber,
         }
     }
 }
@@ -344,6 +383,20 @@ impl From<PoseError> for CobraStatus {
             PoseError::NotFinite => S::PoseNotFinite,
             PoseError::NotARotation { .. } => S::PoseNotARotation,
             PoseError::Reflection { .. } => S::PoseReflection,
+        }
+    }
+}
+
+impl From<DepthError> for CobraStatus {
+    fn from(error: DepthError) -> Self {
+        match error {
+            DepthError::Score(error) => error.into(),
+            DepthError::NoValidity => S::DepthNoValidity,
+            DepthError::Noise { .. } => S::DepthNoise,
+            DepthError::Side { .. } => S::DepthSide,
+            DepthError::StepPixels => S::DepthStepPixels,
+            DepthError::Thresholds { .. } => S::DepthThresholds,
+            DepthError::Cells { .. } => S::MemoryTooSmall,
         }
     }
 }

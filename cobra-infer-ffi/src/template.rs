@@ -229,6 +229,10 @@ pub(crate) fn detail(error: TemplateError) -> CobraTemplateDetail {
             detail.component = number(component);
         }
         E::ObjectNumber { found, .. } => detail.value = found,
+        E::DepthNumber { found, .. } => {
+            detail.section = tag(Section::Depth);
+            detail.value = found;
+        }
         E::ComponentNumber {
             component, found, ..
         } => {
@@ -277,5 +281,6 @@ const fn tag(section: Section) -> u32 {
         Section::Precisions => 5,
         Section::Validity => 6,
         Section::Quality => 7,
+        Section::Depth => 8,
     }
 }

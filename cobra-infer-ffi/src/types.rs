@@ -167,6 +167,12 @@ pub enum CobraReason {
     NegativeWeight = 8,
     /// Undecided: the threshold is zero, the tolerance is immense against sigma.
     NoThreshold = 9,
+    /// Undecided: something in front hides the object.
+    Hidden = 10,
+    /// Undecided: no threshold is known, calibrate first.
+    NotCalibrated = 11,
+    /// Undecided: the confidence lies between the thresholds.
+    BetweenThresholds = 12,
 }
 
 /// The scorer's answer. None of its numbers is ever NaN.
@@ -382,5 +388,8 @@ pub(crate) fn decision(decision: Decision) -> (CobraDecision, CobraReason) {
         Decision::Undecided(Doubt::NonFiniteInput) => (D::Undecided, R::NonFiniteInput),
         Decision::Undecided(Doubt::NegativeWeight) => (D::Undecided, R::NegativeWeight),
         Decision::Undecided(Doubt::NoThreshold) => (D::Undecided, R::NoThreshold),
+        Decision::Undecided(Doubt::Hidden) => (D::Undecided, R::Hidden),
+        Decision::Undecided(Doubt::NotCalibrated) => (D::Undecided, R::NotCalibrated),
+        Decision::Undecided(Doubt::BetweenThresholds) => (D::Undecided, R::BetweenThresholds),
     }
 }

@@ -7,7 +7,7 @@
 //! convention of OpenCV and BOP.
 
 use crate::error::CameraError;
-use crate::math;
+use crate::math::{self, Real};
 use crate::pose::Pose;
 use nalgebra::{Point2, Point3, Vector3};
 
@@ -133,6 +133,14 @@ impl Camera {
         }
     }
 
+    /// K, row-major: what [`Camera::from_matrix`] takes.
+    #[must_use]
+    pub fn to_matrix(&self) -> [f32; 9] {
+        [
+            self.fx, self.skew, self.cx, 0.0, self.fy, self.cy, 0.0, 0.0, 1.0,
+        ]
+    }
+
     /// K⁻¹p: the ray through a pixel, scaled to z = 1.
     #[must_use]
     #[inline(always)]
@@ -154,6 +162,26 @@ impl Camera {
             self.fx * x + self.skew * y + self.cx,
             self.fy * y + self.cy,
         ))
+    }
+
+    /// The square of the image that a sphere in front of the camera, z > R, falls into: its middle and half
+    /// its side. The rays that touch the sphere in the plane of x and z have
+    /// x/z = (xz ± R√(x² + z² − R²))/(z² − R²), and those of y and z alike.
+    pub(crate) fn square_around(&self, middle: &Point3<f32>, radius: f32) -> (Point2<f32>, f32) {
+        let below = (middle.z - radius) * (middle.z + radius);
+        let span = |across: f32| {
+            (
+                across * middle.z / below,
+                radius * (across * across + below).square_root() / below,
+            )
+        };
+        let ((x, wide), (y, high)) = (span(middle.x), span(middle.y));
+        let across = self.fx * wide + math::abs(self.skew) * high;
+        let up = self.fy * high;
+        (
+            Point2::new(self.fx * x + self.skew * y + self.cx, self.fy * y + self.cy),
+            if across > up { across } else { up },
+        )
     }
 
     /// Puts a pixel with a measured depth back into the object's frame: P̂ = Rᵀ(λK⁻¹p − t).
@@ -207,6 +235,38 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_matrix_is_the_one_that_was_given() {
+        let k = [420., 0.7, 310., 0., 430., 250., 0., 0., 1.];
+        assert_eq!(Camera::from_matrix(k).unwrap().to_matrix(), k);
+    }
+
+    #[test]
+    fn the_square_around_a_sphere_holds_it_and_no_more() {
+        let camera = Camera::from_matrix([420., 0.7, 310., 0., 430., 250., 0., 0., 1.]).unwrap();
+        for middle in [[0., 0., 500.], [400., -90., 500.], [-30., 600., 300.]] {
+            let middle = Point3::from(middle);
+            let (centre, half) = camera.square_around(&middle, 40.0);
+            let mut reach = 0.0_f32;
+            for step in 0..40_000 {
+                let (turn, z) = (step as f32 * 2.399_963, 1.0 - step as f32 / 20_000.0);
+                let ring = (1.0 - z * z).square_root();
+                let outward = Vector3::new(
+                    ring * (turn + core::f32::consts::FRAC_PI_2).sine(),
+                    ring * turn.sine(),
+                    z,
+                );
+                let pixel = camera.project(&(middle + 40.0 * outward)).unwrap();
+                let away = pixel - centre;
+                reach = reach.max(away.x.abs()).max(away.y.abs());
+            }
+            assert!(
+                reach <= half * 1.0001 && half < reach * 1.01,
+                "{half} {reach}"
+            );
+        }
+    }
 
     #[test]
     fn a_projected_point_comes_back_to_where_it_was() {

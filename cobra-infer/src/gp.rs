@@ -19,10 +19,12 @@ use terms::Encoded;
 pub mod compact;
 #[cfg(test)]
 pub(crate) mod evaluations;
+mod gradient;
 pub mod map;
 mod sum;
 mod terms;
 
+pub use gradient::posterior_gradient;
 pub use terms::Terms;
 
 /// How many accumulators the sum is interleaved over.

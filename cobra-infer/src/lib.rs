@@ -21,6 +21,7 @@
 //! | [`mixture`] | the likelihood of one object-frame point under a template |
 //! | [`mod@score`] | the streaming scorer, the confidence of Eq. 10, the decision |
 //! | [`bound`] | the threshold: Eq. 11, the exact average, the worst case |
+//! | [`tracking`] | whether an object is still tracked, from the confidences of its frames |
 //! | [`tolerance`] | every tolerance this crate applies, in one table |
 //! | [`math`] | the only place that knows `libm` |
 //!
@@ -73,6 +74,7 @@ pub use nalgebra;
 
 pub mod bound;
 pub mod camera;
+pub mod depth;
 mod error;
 pub mod gp;
 pub mod kernel;
@@ -83,6 +85,7 @@ pub mod score;
 pub mod template;
 pub mod tolerance;
 mod trace;
+pub mod tracking;
 mod unit;
 pub mod validity;
 mod widest;

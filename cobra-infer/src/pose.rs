@@ -98,6 +98,50 @@ impl Pose {
     }
 }
 
+impl Pose {
+    /// The pose that sees the object's points where this one would if they had been moved by
+    /// P ↦ Q(P − C) + C + τ the other way round: (R, t)∘A⁻¹ with A that motion, and Q the rotation of Cayley's
+    /// parameters ω/2, which turns by about ‖ω‖ (exactly 2·arctan(‖ω‖/2)). `None` where it is not finite.
+    #[must_use]
+    pub(crate) fn moved_back(
+        &self,
+        [cx, cy, cz]: [f32; 3],
+        [tx, ty, tz]: [f32; 3],
+        omega: [f32; 3],
+    ) -> Option<Self> {
+        let [x, y, z] = omega.map(|w| 0.5 * w);
+        let scale = 1.0 / (1.0 + math::dot([x, y, z], [x, y, z]));
+        let (xx, yy, zz) = (x * x, y * y, z * z);
+        // Rows of Q, of the unit quaternion (1, x, y, z)·√scale.
+        let q = [
+            [1.0 + xx - yy - zz, 2.0 * (x * y - z), 2.0 * (x * z + y)],
+            [2.0 * (x * y + z), 1.0 - xx + yy - zz, 2.0 * (y * z - x)],
+            [2.0 * (x * z - y), 2.0 * (y * z + x), 1.0 - xx - yy + zz],
+        ]
+        .map(|row| row.map(|entry| entry * scale));
+        let m = self.rotation.matrix();
+        // RQᵀ: a row of R times a row of Q.
+        let rows = [
+            [m.m11, m.m12, m.m13],
+            [m.m21, m.m22, m.m23],
+            [m.m31, m.m32, m.m33],
+        ];
+        let [[a, b, c], [d, e, f], [g, h, i]] =
+            rows.map(|row| q.map(|other| math::dot(row, other)));
+        let r = newton_step([a, b, c, d, e, f, g, h, i]);
+        let centre = self.to_camera(&Point3::new(cx, cy, cz));
+        let shifted = [cx + tx, cy + ty, cz + tz];
+        let [a, b, c, d, e, f, g, h, i] = r;
+        let t = [
+            centre.x - math::dot([a, b, c], shifted),
+            centre.y - math::dot([d, e, f], shifted),
+            centre.z - math::dot([g, h, i], shifted),
+        ];
+        let finite = r.iter().chain(&t).all(|entry| entry.is_finite());
+        finite.then(|| Self::unchecked(r, t))
+    }
+}
+
 /// The upper triangle of RᵀR, row by row: the products of R's columns.
 ///
 /// Not by nalgebra's product, which states no order of summation.
@@ -160,6 +204,7 @@ fn check(r: [f32; 9], t: [f32; 3], tolerance: f32) -> Result<(), PoseError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Real;
 
     const QUARTER_TURN: [f32; 9] = [0., -1., 0., 1., 0., 0., 0., 0., 1.];
 
@@ -206,6 +251,29 @@ mod tests {
             Err(PoseError::NotARotation { .. })
         ));
         assert!(Pose::from_row_major(QUARTER_TURN, [0., f32::INFINITY, 0.]).is_err());
+    }
+
+    #[test]
+    fn a_pose_moved_back_sees_the_moved_points_where_it_saw_them() {
+        let pose = Pose::from_row_major(QUARTER_TURN, [5., 6., 700.]).unwrap();
+        let (centre, shift, omega) = ([10., -4., 3.], [0.5, 2., -1.], [0.1, -0.3, 0.2]);
+        let moved = pose.moved_back(centre, shift, omega).unwrap();
+        let r = moved.rotation().matrix();
+        assert!((r.transpose() * r - Matrix3::identity()).norm() < 1e-6);
+        // The motion A: a turn about the centre by 2·arctan(‖ω‖/2), then the shift.
+        let omega = Vector3::from(omega);
+        let angle = 2.0 * (0.5 * omega.norm()).arctangent(1.0);
+        let turn = Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(omega), angle);
+        let (centre, shift) = (Point3::from(centre), Vector3::from(shift));
+        for point in [Point3::new(1., 2., 3.), Point3::new(-40., 9., 25.)] {
+            let there = centre + turn * (point - centre) + shift;
+            let seen = pose.to_camera(&point);
+            assert!((moved.to_camera(&there) - seen).norm() < 1e-3);
+        }
+        assert!(
+            pose.moved_back([0.; 3], [f32::NAN, 0., 0.], [0.; 3])
+                .is_none()
+        );
     }
 
     #[test]

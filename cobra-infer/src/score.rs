@@ -51,6 +51,12 @@ pub enum Doubt {
     NegativeWeight,
     /// The threshold rounds to 0, because δ is immense against σ: any pose would pass.
     NoThreshold,
+    /// Against depth: something nearer hides what would have to be seen.
+    Hidden,
+    /// Against depth: no thresholds are known.
+    NotCalibrated,
+    /// Against depth: the confidence lies between the thresholds.
+    BetweenThresholds,
 }
 
 impl Decision {
@@ -79,6 +85,9 @@ impl Decision {
             Decision::Undecided(Doubt::NoThreshold) => {
                 "the threshold is zero: the tolerance is immense against sigma"
             }
+            Decision::Undecided(Doubt::Hidden) => "something in front hides the object",
+            Decision::Undecided(Doubt::NotCalibrated) => "no threshold is known: calibrate first",
+            Decision::Undecided(Doubt::BetweenThresholds) => "confidence between the thresholds",
         }
     }
 }

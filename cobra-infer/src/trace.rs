@@ -7,7 +7,7 @@
 //! |---|---|
 //! | warn | a template is refused, with the error; no failure for who tries several places in flash |
 //! | info | a template is loaded: name, components, terms |
-//! | debug | [`crate::Scorer::finish`]: the report |
+//! | debug | [`crate::Scorer::finish`], [`crate::depth::DepthCheck::run`]: the report |
 //!
 //! `defmt` sends numbers as they are: it adds some 3 kB on a Cortex-M4F, and nothing that can panic.
 //! `log` links `core`'s formatting of floats, in which a linker finds panics, although none is ever
@@ -18,6 +18,7 @@
     allow(unused_variables, reason = "without a logger nothing is told")
 )]
 
+use crate::depth::DepthReport;
 use crate::score::Report;
 use crate::template::{Template, TemplateError};
 
@@ -71,6 +72,31 @@ pub(crate) fn pose_scored(report: &Report) {
     );
     #[cfg(feature = "defmt")]
     defmt::debug!("pose: {}", report);
+}
+
+#[inline]
+pub(crate) fn pose_checked(report: &DepthReport) {
+    #[cfg(feature = "log")]
+    log::debug!(
+        target: TARGET,
+        "pose against depth: {}, {}; confidence {}, forward {}, reverse {}, displacement {}, sigma {}, pixels {}, \
+         silent {}, visible {}, judged {}, hidden {}, seen through {}",
+        report.decision.name(),
+        report.decision.reason(),
+        report.confidence,
+        report.forward,
+        report.reverse,
+        report.displacement,
+        report.noise,
+        report.pixels,
+        report.silent,
+        report.visible,
+        report.judged,
+        report.hidden,
+        report.seen_through
+    );
+    #[cfg(feature = "defmt")]
+    defmt::debug!("pose against depth: {}", report);
 }
 
 /// [`defmt::Format`] of what contains types of nalgebra, whose own would show a matrix by columns.

@@ -73,6 +73,19 @@ impl Pole {
             Self::MinusY => [z, x, -y],
         }
     }
+
+    /// a, b, c as x, y, z.
+    #[inline]
+    const fn turn_back(self, [a, b, c]: [f32; 3]) -> [f32; 3] {
+        match self {
+            Self::PlusZ => [a, b, c],
+            Self::PlusX => [c, a, b],
+            Self::PlusY => [b, c, a],
+            Self::MinusZ => [a, b, -c],
+            Self::MinusX => [-c, a, b],
+            Self::MinusY => [b, -c, a],
+        }
+    }
 }
 
 /// A cell of the grid of directions.
@@ -107,6 +120,27 @@ pub(crate) fn project(pole: Pole, offset: [f32; 3]) -> Square {
         (p, q) = (folded(p, q), folded(q, p));
     }
     [p, q]
+}
+
+/// The gradient over the direction `u` of what has the gradient `over` on the octahedral map, as a vector
+/// of the frame that `u` is in; along the folds that of one side.
+#[must_use]
+pub(crate) fn pull_back(pole: Pole, u: [f32; 3], [over_p, over_q]: Square) -> [f32; 3] {
+    let sign = |t: f32| if t < 0.0 { -1.0 } else { 1.0 };
+    let [a, b, c] = pole.turn(u);
+    let inverse = 1.0 / ((math::abs(a) + math::abs(b)) + math::abs(c));
+    let (mut p, mut q) = (over_p, over_q);
+    if c < 0.0 {
+        let both = -(sign(a) * sign(b));
+        (p, q) = (both * over_q, both * over_p);
+    }
+    // The sum of magnitudes, which a and b are divided by, grows with each of them.
+    let shared = (p * a + q * b) * (inverse * inverse);
+    pole.turn_back([
+        p * inverse - sign(a) * shared,
+        q * inverse - sign(b) * shared,
+        -(sign(c) * shared),
+    ])
 }
 
 /// The cell of a grid of `side`² cells that holds a place: column and row are ⌊(p + 1)·(side/2)⌋ and
@@ -149,15 +183,7 @@ pub fn direction(pole: Pole, side: u8, cell: Cell, [column, row]: [f32; 2]) -> [
         (p, q) = (folded(p, q), folded(q, p));
     }
     let length = math::dot([p, q, c], [p, q, c]).square_root();
-    let [a, b, c] = [p / length, q / length, c / length];
-    match pole {
-        Pole::PlusZ => [a, b, c],
-        Pole::PlusX => [c, a, b],
-        Pole::PlusY => [b, c, a],
-        Pole::MinusZ => [a, b, -c],
-        Pole::MinusX => [-c, a, b],
-        Pole::MinusY => [b, -c, a],
-    }
+    pole.turn_back([p / length, q / length, c / length])
 }
 
 /// The grid that boxes are given in: [`BOX_STEPS`] steps along each edge of the cube around the

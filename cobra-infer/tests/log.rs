@@ -1,11 +1,14 @@
 //! What arrives at a logger of the crate `log`.
 
+use cobra_infer::depth::{Cell, DepthCheck, DepthSettings, DepthWords, Observed, TemplateSurface};
 use cobra_infer::{Camera, Pose, Scorer, Settings, Template, TemplateError};
 use log::{Level, LevelFilter, Log, Metadata, Record};
 use std::cell::RefCell;
 use std::sync::Once;
 
 const TEMPLATE: &[u8] = include_bytes!("../../tests/golden/v1-exponent-one.cobra");
+
+const CHARTS: &[u8] = include_bytes!("../../tests/golden/v1-validity-compact.cobra");
 
 thread_local! {
     static EVENTS: RefCell<Vec<(Level, String)>> = const { RefCell::new(Vec::new()) };
@@ -86,4 +89,39 @@ fn a_poses_report_is_told_once_when_it_is_finished() {
         text.starts_with("pose: undecided, too few points; confidence 0, "),
         "{text}"
     );
+}
+
+#[test]
+fn a_check_against_depth_is_told_once_with_its_answer() {
+    let template = Template::from_bytes(CHARTS).unwrap();
+    let camera = Camera::new(400.0, 420.0, 320.0, 240.0).unwrap();
+    let identity = [1., 0., 0., 0., 1., 0., 0., 0., 1.];
+    let settings = DepthSettings::for_template(&template);
+    let surface = TemplateSurface::<64>::new(&template, 1.0).unwrap();
+    let check = DepthCheck::new(&surface, &camera, &settings).unwrap();
+    let words = [0; 64];
+    let image = DepthWords::new(&words, 8, 1.0).unwrap();
+    let mut cells = vec![Cell::EMPTY; settings.cells()];
+    for (z, said) in [
+        (
+            500.0,
+            "pose against depth: undecided, too few points; confidence 0, ",
+        ),
+        (
+            -500.0,
+            "pose against depth: reject, every point lies behind the camera; ",
+        ),
+    ] {
+        let pose = Pose::from_row_major(identity, [0., 0., z]).unwrap();
+        EVENTS.take();
+        let events = events_of(|| {
+            let silhouette = Observed::Silhouette;
+            let report = check.run(&pose, silhouette, &image, &mut cells, &mut || {});
+            report.unwrap();
+        });
+        let [(Level::Debug, text)] = &events[..] else {
+            panic!("{events:?}");
+        };
+        assert!(text.starts_with(said), "{text}");
+    }
 }

@@ -3,8 +3,11 @@
 //! From a mesh to a template: [`surface`] reads it and draws points on it, [`mod@reference`] places
 //! reference points, [`gp`] fits a Gaussian process around each, [`mod@train`] puts them together and
 //! hands them to `cobra-infer`'s encoder. [`mod@evaluate`] measures the result with the scorer's own
-//! code, [`export`] makes source text of it. [`input`] reads cameras, poses and correspondences,
-//! [`pose`] simulates them, [`demo`] shows the whole. The command `cobra` is a thin layer over this
+//! code, [`calibrate`] finds the thresholds for a false-accept rate, on labelled estimates or on those of
+//! [`simulation`], and [`ambiguity`] the poses that no threshold tells apart. [`export`] makes source text
+//! of a template. [`input`] reads cameras, poses and correspondences, [`pose`] simulates them, [`bop`] reads
+//! data sets and results of the BOP benchmark and scores them against depth, [`overlay`] draws estimates
+//! over the image that they are of, [`demo`] shows the whole. The command `cobra` is a thin layer over this
 //! library.
 //!
 //! # Example
@@ -23,17 +26,25 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod ambiguity;
+pub mod bop;
+pub mod calibrate;
 pub mod coverage;
 pub mod demo;
+pub mod depth;
+pub mod depth_image;
 pub mod evaluate;
 pub mod export;
 pub mod gp;
 pub mod input;
 pub mod output;
+pub mod overlay;
+pub mod pixel_mask;
 pub mod pose;
 pub mod progress;
 pub mod random;
 pub mod reference;
+pub mod simulation;
 pub mod surface;
 pub mod train;
 pub mod validity;

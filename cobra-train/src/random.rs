@@ -3,7 +3,7 @@
 //! Every use of randomness draws from a stream of its own, named by the seed, what it is for, and
 //! an index. No stream is shared between threads, so results do not depend on their number.
 
-use rand::SeedableRng;
+use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// What a stream of random numbers is for. The order is part of the streams: new ones come last.
@@ -35,6 +35,12 @@ pub enum Purpose {
     ChartRings,
     /// Where points are moved off the surface.
     OffSurface,
+    /// Noise on simulated depth images.
+    DepthNoise,
+    /// How the views and the candidates of a search for ambiguities are turned.
+    Ambiguity,
+    /// Scenes of one object, and wrong poses in them.
+    SimulatedScenes,
 }
 
 /// The stream for one purpose and index.
@@ -45,4 +51,11 @@ pub fn stream(seed: u64, purpose: Purpose, index: u64) -> ChaCha8Rng {
     key[8] = purpose as u8;
     key[16..24].copy_from_slice(&index.to_le_bytes());
     ChaCha8Rng::from_seed(key)
+}
+
+/// A standard normal variate by Box and Muller's transform, with `libm` so that every platform
+/// draws the same.
+pub(crate) fn normal(rng: &mut impl Rng) -> f64 {
+    let radius = (-2.0 * libm::log(1.0 - rng.random::<f64>())).sqrt();
+    radius * libm::cos(2.0 * std::f64::consts::PI * rng.random::<f64>())
 }

@@ -63,6 +63,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             model: Model::chord(Kernel::RationalQuadratic(exponent)),
             components: &components,
             quality: None,
+            depth: None,
         };
         let mut bytes = vec![0; encoded_len(&source)];
         let length = encode(&source, &mut bytes)?;

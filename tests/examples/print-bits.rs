@@ -1,9 +1,11 @@
 //! Prints what the example in C prints, by way of `cobra-infer` itself.
 //!
-//! `cargo run -p cobra-tests --example print-bits -- TEMPLATE CROWDED POINTS`, with the files that
-//! `cobra-infer-ffi/examples/score` links in.
+//! `cargo run -p cobra-tests --example print-bits -- TEMPLATE CROWDED POINTS SCENE IMAGE`, with the files
+//! that `cobra-infer-ffi/examples/score` links in.
 
+use cobra_agreement::depth::{self, Scene};
 use cobra_agreement::golden::{decision_name, report_bits};
+use cobra_infer::depth::{Cell, DepthSettings, Observed, check_depth};
 use cobra_infer::nalgebra::{Point2, Point3};
 use cobra_infer::{Camera, Correspondence, Pose, Scorer, Settings, Sigma, Template};
 use std::error::Error;
@@ -24,14 +26,17 @@ const COMPONENTS: usize = 32;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let paths: Vec<String> = std::env::args().skip(1).collect();
-    let [template, crowded, points] = paths.as_slice() else {
-        return Err("expected TEMPLATE CROWDED POINTS".into());
+    let [template, crowded, points, scene, image] = paths.as_slice() else {
+        return Err("expected TEMPLATE CROWDED POINTS SCENE IMAGE".into());
     };
     let points = std::fs::read(Path::new(points))?;
     let mut template = std::fs::read(template)?;
     for only_sound in [false, true] {
         score(&template, &points, only_sound).map_err(text)?;
     }
+    let (scene, image) = (std::fs::read(scene)?, std::fs::read(image)?);
+    let checked = check(&template, &scene, &image);
+    println!("depth: {}", text(checked.err().unwrap_or(CobraStatus::Ok)));
     let middle = template.len() / 2;
     template[middle] ^= 1;
     for (what, bytes) in [("damaged", template), ("crowded", std::fs::read(crowded)?)] {
@@ -83,6 +88,38 @@ fn score(template: &[u8], mut points: &[u8], only_sound: bool) -> Result<(), Cob
         report.behind_camera,
         decision_name(report.decision)
     );
+    Ok(())
+}
+
+fn check(template: &[u8], scene: &[u8], image: &[u8]) -> Result<(), CobraStatus> {
+    let template = Template::from_bytes(template)?;
+    let words: Vec<u16> = image
+        .as_chunks()
+        .0
+        .iter()
+        .copied()
+        .map(u16::from_le_bytes)
+        .collect();
+    let scene = Scene::read(scene).expect("a scene");
+    let camera = scene.camera().expect("a camera");
+    let image = scene.image(&words).expect("its image");
+    let mut room = [depth::NO_PIXEL; depth::PIXELS];
+    let pixels = scene.observed(&image, &mut room);
+    let settings = DepthSettings::for_template(&template);
+    let mut cells = vec![Cell::EMPTY; settings.cells()];
+    for pose in scene.poses() {
+        for observed in [Observed::Pixels(pixels), Observed::Silhouette] {
+            let report = check_depth::<COMPONENTS>(
+                &template, &camera, &pose, &settings, observed, &image, &mut cells,
+            )?;
+            let words = depth::report_words(&template, &pose, &report);
+            let (numbers, rest) = words.split_at(24);
+            let numbers: String = numbers.iter().map(|word| format!(" {word:08x}")).collect();
+            let counts: String = rest[..7].iter().map(|count| format!(" {count}")).collect();
+            let (cause, reason) = (rest[8] + 1, report.decision.reason());
+            println!("depth{numbers}{counts} cause {cause}: {reason}");
+        }
+    }
     Ok(())
 }
 

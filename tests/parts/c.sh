@@ -98,7 +98,15 @@ c_crowded() {
         "$c_dir/crowded.cobra"
 }
 
+# A template without a scene of its own has no surface to be checked, and says so.
+c_scene() {
+    local name=$1
+    [ -f "$c_golden/$name.scene" ] || name=charts
+    echo "$c_golden/$name"
+}
+
 c_inputs() {
+    echo "-DSCENE=\"$PWD/$(c_scene "$1").scene\" -DIMAGE=\"$PWD/$(c_scene "$1").image\""
     echo "-DTEMPLATE=\"$PWD/$c_golden/$1.cobra\" -DPOINTS=\"$PWD/$c_golden/$1.points\"" \
         "-DCROWDED=\"$c_dir/crowded.cobra\""
 }
@@ -127,12 +135,13 @@ c_host() {
 
 c_rust() {
     cargo run --quiet --package cobra-tests --locked --example print-bits -- \
-        "$c_golden/$1.cobra" "$c_dir/crowded.cobra" "$c_golden/$1.points" >"$c_dir/$1.rust" || return
+        "$c_golden/$1.cobra" "$c_dir/crowded.cobra" "$c_golden/$1.points" "$(c_scene "$1").scene" \
+        "$(c_scene "$1").image" >"$c_dir/$1.rust" || return
     # Something was scored, on all points and on the sound ones, and both refusals are there.
     [ "$(wc -l <"$c_dir/$1.rust")" -gt 1000 ] &&
         [ "$(grep -c '^confidence ' "$c_dir/$1.rust")" -eq 2 ] &&
         grep -qE ' decision (accept|below-threshold)$' "$c_dir/$1.rust" &&
-        grep -q '^damaged: ' "$c_dir/$1.rust" &&
+        grep -q '^depth' "$c_dir/$1.rust" && grep -q '^damaged: ' "$c_dir/$1.rust" &&
         grep -q '^crowded: ' "$c_dir/$1.rust"
 }
 
@@ -143,10 +152,10 @@ c_same() {
     }
 }
 
-# The program that docs/C.md prints.
+# The first program that docs/C.md prints.
 c_page() {
     local said
-    awk '/^```c$/ { inside = 1; next } /^```$/ { inside = 0 } inside' docs/C.md >"$c_dir/page.c"
+    awk '/^```c$/ { inside = 1; next } inside && /^```$/ { exit } inside' docs/C.md >"$c_dir/page.c"
     # shellcheck disable=SC2086 # a list of words
     cc $c_strict "$c_dir/page.c" "$target_dir/release/libcobra_infer_ffi.a" -lpthread -ldl -lm \
         -o "$c_dir/page" || return
@@ -155,6 +164,21 @@ c_page() {
         echo "said: $said" >&2
         return 1
     }
+}
+
+# The second one, inside a function that has what it names.
+c_page_depth() {
+    {
+        echo '#include "cobra_infer.h"'
+        echo 'CobraDecision page(const CobraTemplate *object, const CobraDepthPixel *mask, size_t mask_size,'
+        echo '    const uint16_t *image, CobraCamera camera, CobraPose pose, void (*feed_watchdog)(void *));'
+        echo 'CobraDecision page(const CobraTemplate *object, const CobraDepthPixel *mask, size_t mask_size,'
+        echo '    const uint16_t *image, CobraCamera camera, CobraPose pose, void (*feed_watchdog)(void *)) {'
+        awk '/^```c$/ { block++; next } /^```$/ { if (block == 2) exit } block == 2' docs/C.md
+        echo 'return status == COBRA_STATUS_OK ? (CobraDecision)report.decision : COBRA_DECISION_UNDECIDED; }'
+    } >"$c_dir/page-depth.c"
+    # shellcheck disable=SC2086 # a list of words
+    cc $c_strict -c "$c_dir/page-depth.c" -o "$c_dir/page-depth.o"
 }
 
 c_panic_is_noticed() {
@@ -194,6 +218,7 @@ part_c() {
     case $(uname -s) in
     Linux)
         c_check "the program of docs/C.md" c_page
+        c_check "the depth check of docs/C.md" c_page_depth
         for set in $(agreement_sets); do
             c_check "$set: Rust" c_rust "$set"
             c_check "$set: C on this machine runs" c_host "$set"

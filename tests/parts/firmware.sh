@@ -77,6 +77,7 @@ agreement_of() {
 measure_board() {
     local target=$1 board=$2 emulator=$3 name=$firmware_folder/$2-$1
     firmware_program "$target" "$board" footprint && cp "$firmware" "$name.elf" || return
+    firmware_program "$target" "$board" footprint-depth && cp "$firmware" "$name.depth.elf" || return
     firmware_program "$target" "$board" budget || return
     if ! emulate "$emulator" "$board" "$firmware" >"$name.budget"; then
         cat "$name.budget" >&2
@@ -112,8 +113,10 @@ score_on_host() {
 
 # A panic handler that calls what nobody defines: a panic that can be reached does not link.
 links_without_panic() {
-    local target=$1 level=$2
-    CARGO_PROFILE_RELEASE_OPT_LEVEL=$level firmware_program "$target" "$3" footprint
+    local target=$1 level=$2 program
+    for program in footprint footprint-depth; do
+        CARGO_PROFILE_RELEASE_OPT_LEVEL=$level firmware_program "$target" "$3" "$program" || return
+    done
 }
 
 # The poses' lines on the executor are those of the plain loop.

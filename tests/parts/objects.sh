@@ -25,7 +25,17 @@ cobra_command() {
     cargo run --quiet --release --locked --package cobra-train --bin cobra -- "$@"
 }
 
-# measure_object NAME [ARGUMENT...]: one test, the host's bits on the board.
+# object_program FOLDER LOG: runs what was built last where its files are.
+object_program() {
+    if ! (cd "$1" && emulate qemu-system-arm "$objects_board" "$firmware") >"$2"; then
+        cat "$2" >&2
+        return 1
+    fi
+    cat "$2"
+}
+
+# measure_object NAME [ARGUMENT...]: one test, the host's bits on the board, of points and of checks
+# against depth.
 measure_object() {
     local name=$1 folder=$firmware_folder/$1
     shift
@@ -33,15 +43,14 @@ measure_object() {
     cobra_command train "$object_mesh" -o "$folder/trained.cobra" --quiet "$@" >/dev/null &&
         cobra_command eval "$folder/trained.cobra" --mesh "$object_mesh" --quiet \
             --json "$firmware_folder/$name.json" >/dev/null &&
-        cargo run --quiet --locked --package cobra-tests --example object-points -- \
+        cargo run --quiet --release --locked --package cobra-tests --example object-points -- \
             "$folder/trained.cobra" "$object_mesh" "$folder" &&
+        cargo run --quiet --release --locked --package cobra-tests --example object-scene -- \
+            "$folder/trained.cobra" "$folder" &&
         firmware_program "$objects_target" "$objects_board" object || return
-    if ! (cd "$folder" && emulate qemu-system-arm "$objects_board" "$firmware") \
-        >"$firmware_folder/$name.object"; then
-        cat "$firmware_folder/$name.object" >&2
-        return 1
-    fi
-    cat "$firmware_folder/$name.object"
+    object_program "$folder" "$firmware_folder/$name.object" &&
+        firmware_program "$objects_target" "$objects_board" object-depth &&
+        object_program "$folder" "$firmware_folder/$name.check" || return
     echo "$name${*:+ $*}" >>"$firmware_folder/objects"
 }
 

@@ -4,8 +4,9 @@
 use cobra_infer::gp::compact::GRID;
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
 use cobra_infer::template::{
-    ComponentSource, HEADER_LENGTH, MAGIC, NAME_CAPACITY, PRECISION_LENGTH, RECORD_LENGTH,
-    TemplateSource, TermsSource, VALIDITY_LENGTH, VERSION, encode, encoded_len, peek_len,
+    CALIBRATION_LENGTH, ComponentSource, HEADER_LENGTH, MAGIC, NAME_CAPACITY, PRECISION_LENGTH,
+    PROVENANCE_CAPACITY, RECORD_LENGTH, TemplateSource, TermsSource, VALIDITY_LENGTH, VERSION,
+    encode, encoded_len, peek_len,
 };
 use cobra_infer::validity::{BOX_STEPS, LARGEST_SIDE, Pole};
 use cobra_infer::{Exponent, Kernel, Model, Template, Unit, tolerance};
@@ -40,6 +41,7 @@ fn example() -> Vec<u8> {
         model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
         components: &[component],
         quality: None,
+        depth: None,
     };
     let mut bytes = vec![0; encoded_len(&source)];
     let length = encode(&source, &mut bytes).unwrap();
@@ -141,6 +143,10 @@ fn the_documented_constants_are_the_codes() {
         format!("in grid steps of 1/{GRID}, from −{GRID} to {GRID};"),
         format!("| name | {NAME_CAPACITY} bytes |"),
         format!("string, at most {NAME_CAPACITY} bytes"),
+        format!("A calibration is {CALIBRATION_LENGTH} bytes."),
+        format!("byte array | empty, or {CALIBRATION_LENGTH} bytes |"),
+        format!("string, at most {PROVENANCE_CAPACITY} bytes"),
+        format!("| provenance of a calibration | {PROVENANCE_CAPACITY} bytes |"),
         format!("|‖uᵢ‖² − 1| ≤ {:e},", tolerance::UNIT_DIRECTION),
         format!("length {}, checksum", peek_len(&example()).unwrap()),
     ] {

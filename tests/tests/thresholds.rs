@@ -45,6 +45,7 @@ fn sphere() -> Vec<u8> {
         model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
         components: &[component],
         quality: None,
+        depth: None,
     };
     let mut bytes = vec![0; encoded_len(&source)];
     let length = encode(&source, &mut bytes).unwrap();

@@ -28,6 +28,7 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("HELD_OUT", asserted::HELD_OUT),
         ("SAME_SHAPE", asserted::SAME_SHAPE),
         ("EXACT_CONFIDENCE", asserted::EXACT_CONFIDENCE),
+        ("PUBLISHED_ERROR", asserted::PUBLISHED_ERROR),
         ("ROUNDOFF", promised::ROUNDOFF),
         ("POSTERIOR_MEAN", promised::POSTERIOR_MEAN),
         ("CONFIDENCE", promised::CONFIDENCE),

@@ -1,4 +1,5 @@
-/* Scores the pose of a linked-in file against a linked-in template, and shows what is refused.
+/* Scores the pose of a linked-in file against a linked-in template, checks poses against a depth image, and
+ * shows what is refused.
  *
  * Some of the file's correspondences are unsound, so that the answer on all of them is undecided; on
  * the sound ones alone there is a decision.
@@ -18,6 +19,8 @@
 extern const unsigned char template_start[], template_end[];
 extern const unsigned char crowded_start[], crowded_end[];
 extern const unsigned char points_start[], points_end[];
+extern const unsigned char scene_start[];
+extern const uint16_t image_start[], image_end[];
 
 /* What a template damaged in RAM is copied to. */
 static unsigned char damaged[256 * 1024];
@@ -31,6 +34,11 @@ static union {
     unsigned char bytes[COBRA_SCORER_SIZE];
     uint64_t alignment;
 } scorer_memory;
+
+
+/* And for a depth buffer of the default size; the mask is the caller's own. */
+static uint32_t cells[32 * 32 * COBRA_DEPTH_CELL_SIZE / sizeof(uint32_t)];
+static CobraDepthPixel mask[128];
 
 static const char *const reasons[] = {
     "not-scored",    "accept",         "below-threshold", "no-support",
@@ -132,6 +140,87 @@ static CobraStatus score(CobraTemplate *loaded, bool only_sound)
     return next == points_end ? COBRA_STATUS_OK : COBRA_STATUS_LENGTH_TOO_LARGE;
 }
 
+/* Prints the bits of a report's numbers, and the rest of it. */
+static void print(const CobraDepthReport *report)
+{
+    const float first[] = {report->confidence,   report->forward,  report->reverse, report->estimated_error,
+                           report->displacement, report->residual, report->noise,   report->depth_ratio};
+    const float last[] = {report->moved_along_ray, report->moved_sideways, report->turned, report->cause_value};
+    size_t i;
+
+    printf("depth");
+    for (i = 0; i < sizeof first / sizeof *first; i++) {
+        printf(" %08" PRIx32, bits(first[i]));
+    }
+    for (i = 0; i < 9; i++) {
+        printf(" %08" PRIx32, bits(report->refined.rotation[i]));
+    }
+    for (i = 0; i < 3; i++) {
+        printf(" %08" PRIx32, bits(report->refined.translation[i]));
+    }
+    for (i = 0; i < sizeof last / sizeof *last; i++) {
+        printf(" %08" PRIx32, bits(last[i]));
+    }
+    printf(" %" PRIu32 " %" PRIu32 " %" PRIu32 " %" PRIu32 " %" PRIu32 " %" PRIu32 " %" PRIu32, report->pixels,
+           report->silent, report->visible, report->judged, report->hidden, report->unmeasured,
+           report->seen_through);
+    printf(" cause %" PRIu32 ": %s\n", (uint32_t)report->cause, cobra_reason_string(report->reason));
+}
+
+/* Every pose of the scene against its image: by its mask, and by what the pose says is seen. */
+static CobraStatus check(CobraTemplate *loaded)
+{
+    const unsigned char *next = scene_start;
+    const unsigned char *poses;
+    CobraCamera camera;
+    CobraDepthSettings settings;
+    CobraDepthObserved observed = {0};
+    CobraStatus status;
+    uint32_t width, pose_count, pixel_count, i;
+    const uint32_t room = sizeof mask / sizeof *mask;
+    int masked;
+
+    next = take(next, camera.matrix, sizeof camera.matrix);
+    next = take(next, &width, sizeof width);
+    next = take(next, &observed.scale, sizeof observed.scale);
+    poses = take(next, &pose_count, sizeof pose_count);
+    next = take(poses + pose_count * sizeof(CobraPose), &pixel_count, sizeof pixel_count);
+    observed.words = image_start;
+    observed.width = (uint16_t)width;
+    /* The scene is the program's own; a robot checks what comes from outside. */
+    if (width == 0 || pixel_count > room) {
+        return COBRA_STATUS_MEMORY_TOO_SMALL;
+    }
+    observed.height = (uint16_t)((size_t)(image_end - image_start) / width);
+    for (i = 0; i < pixel_count; i++) {
+        next = take(next, &mask[i].column, sizeof mask[i].column);
+        next = take(next, &mask[i].row, sizeof mask[i].row);
+        mask[i].depth = (float)image_start[mask[i].row * width + mask[i].column] * observed.scale;
+    }
+    status = cobra_depth_settings_default(loaded, &settings);
+    for (i = 0; i < pose_count; i++) {
+        CobraPose pose;
+
+        poses = take(poses, pose.rotation, sizeof pose.rotation);
+        poses = take(poses, pose.translation, sizeof pose.translation);
+        for (masked = 1; masked >= 0; masked--) {
+            CobraDepthReport report;
+
+            observed.pixels = masked ? mask : NULL;
+            observed.pixel_count = masked ? pixel_count : 0;
+            if (status == COBRA_STATUS_OK) {
+                status = cobra_depth_check(cells, sizeof cells, loaded, &camera, &pose, &settings,
+                                           &observed, &report);
+            }
+            if (status != COBRA_STATUS_OK) {
+                return status;
+            }
+            print(&report);
+        }
+    }
+    return status;
+}
+
 int main(void)
 {
     size_t length = (size_t)(template_end - template_start);
@@ -149,6 +238,7 @@ int main(void)
         printf("failed: %s\n", cobra_status_string(status));
         return 1;
     }
+    printf("depth: %s\n", cobra_status_string(check(loaded)));
 
     if (length > sizeof damaged) {
         printf("the template is larger than the example's buffer\n");

@@ -6,6 +6,7 @@
 )]
 
 mod agreement;
+mod depth;
 mod memory;
 mod refusals;
 mod texts;

@@ -33,7 +33,7 @@ fn every_status_has_a_text_of_its_own() {
         assert!(!text.is_empty() && texts.insert(text), "{status:?}");
         assert_eq!(CobraStatus::from_number(status as u32), Some(status));
     }
-    for number in [8, 99, 137, 408, u32::MAX] {
+    for number in [8, 99, 138, 410, 506, u32::MAX] {
         let text = unsafe { CStr::from_ptr(cobra_status_string(number)) };
         assert!(texts.insert(text) || text == c"unknown status");
     }
@@ -65,6 +65,9 @@ fn decisions_and_reasons_have_the_texts_of_rust() {
         Decision::Undecided(Doubt::NonFiniteInput),
         Decision::Undecided(Doubt::NegativeWeight),
         Decision::Undecided(Doubt::NoThreshold),
+        Decision::Undecided(Doubt::Hidden),
+        Decision::Undecided(Doubt::NotCalibrated),
+        Decision::Undecided(Doubt::BetweenThresholds),
     ];
     // In the order of the numbers behind `NotScored`.
     for (number, rust) in (1..).zip(decisions) {
@@ -73,8 +76,8 @@ fn decisions_and_reasons_have_the_texts_of_rust() {
         assert_eq!(decision_text(decision as u32).to_str(), Ok(rust.name()));
         assert_eq!(reason_text(number).to_str(), Ok(rust.reason()));
     }
-    assert_eq!(decisions.len(), CobraReason::NoThreshold as usize);
-    for number in [10, u32::MAX] {
+    assert_eq!(decisions.len(), CobraReason::BetweenThresholds as usize);
+    for number in [13, u32::MAX] {
         assert!(!cobra_decision_string(number).is_null());
         assert_eq!(reason_text(number), c"unknown reason");
         assert!(!cobra_reason_string(number).is_null());

@@ -17,6 +17,10 @@ impl<K: Covariance<f32>> Covariance<f32> for Counted<K> {
         MADE.set(MADE.get() + 1);
         self.0.between(a, b)
     }
+
+    fn gradient(&self, a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+        self.0.gradient(a, b)
+    }
 }
 
 /// Counts what is no kernel's.

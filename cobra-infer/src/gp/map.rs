@@ -143,6 +143,40 @@ impl<'a> Map<'a> {
         };
         sums().map_or(f32::NAN, |sums| self.scale() * dot(along, sums))
     }
+
+    /// The derivative of [`Map::above_prior`] along p and along q: (scale·s)·S, with the weights' derivatives
+    /// in their place along the one side and the weights along the other.
+    pub(crate) fn gradient(&self, [p, q]: Square) -> Square {
+        let (spacing, [x, y]) = (self.spacing(), self.origin());
+        let (x, y) = (p * spacing + x, q * spacing + y);
+        let (column, across) = place(x, self.columns());
+        let (row, along) = place(y, self.rows());
+        let columns = usize::from(self.columns());
+        let first = usize::from(row) * columns + usize::from(column);
+        let sums = |weights: [f32; 4]| {
+            let (one, rest) = four(self.nodes.get(first..)?, columns, weights)?;
+            let (two, rest) = four(rest, columns, weights)?;
+            let (three, rest) = four(rest, columns, weights)?;
+            let (last, _) = four(rest, 0, weights)?;
+            Some([one, two, three, last])
+        };
+        let factor = self.scale() * spacing;
+        let slope = |weights, sums: Option<[f32; 4]>| {
+            sums.map_or(f32::NAN, |sums| factor * dot(weights, sums))
+        };
+        [
+            slope(along, sums(slopes(x - f32::from(column)))),
+            slope(slopes(y - f32::from(row)), sums(across)),
+        ]
+    }
+}
+
+/// The derivatives of the four weights: −3r², 9t² − 12t, 12r − 9r², 3t².
+#[inline]
+fn slopes(t: f32) -> [f32; 4] {
+    let r = 1.0 - t;
+    let inner = |t: f32| (9.0 * t - 12.0) * t;
+    [-3.0 * (r * r), inner(t), -inner(r), 3.0 * (t * t)]
 }
 
 /// The first of the four nodes along a side that `at` lies among, and their weights.

@@ -223,7 +223,7 @@ impl<'a> Terms<'a> {
 
 impl<'a, C: Number, W: Number> Arrays<'a, C, W> {
     /// The numbers of the terms, one by one.
-    fn iter(self) -> impl Iterator<Item = ([f32; 3], f32)> + use<'a, C, W> {
+    pub(super) fn iter(self) -> impl Iterator<Item = ([f32; 3], f32)> + use<'a, C, W> {
         let [x, y, z] = self.coordinates;
         x.iter()
             .zip(y)

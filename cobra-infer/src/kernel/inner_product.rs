@@ -20,6 +20,11 @@ impl<T: Real> Covariance<T> for Linear {
     fn between(&self, a: [T; 3], b: [T; 3]) -> T {
         inner_product(a, b)
     }
+
+    #[inline(always)]
+    fn gradient(&self, _: [T; 3], b: [T; 3]) -> [T; 3] {
+        b
+    }
 }
 
 /// k = (a·b + c)³.
@@ -41,5 +46,12 @@ impl<T: Real> Covariance<T> for Polynomial<T> {
     fn between(&self, a: [T; 3], b: [T; 3]) -> T {
         let q = inner_product(a, b) + self.offset;
         (q * q) * q
+    }
+
+    #[inline(always)]
+    fn gradient(&self, a: [T; 3], b: [T; 3]) -> [T; 3] {
+        let q = inner_product(a, b) + self.offset;
+        let slope = T::THREE * (q * q);
+        b.map(|coordinate| slope * coordinate)
     }
 }

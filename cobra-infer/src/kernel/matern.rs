@@ -1,6 +1,6 @@
 //! Matérn's kernels of smoothness ½, 3/2 and 5/2, with r = √s the distance.
 
-use super::{Covariance, squared_distance};
+use super::{Covariance, along, squared_distance};
 use crate::math::Real;
 
 /// Smoothness ½: k = exp(−r/l).
@@ -23,6 +23,17 @@ impl<T: Real> Covariance<T> for MaternHalf<T> {
     #[inline(always)]
     fn between(&self, a: [T; 3], b: [T; 3]) -> T {
         (-(squared_distance(a, b).square_root() * self.inverse)).exponential()
+    }
+
+    /// 0 at a = b, where there is none.
+    #[inline(always)]
+    fn gradient(&self, a: [T; 3], b: [T; 3]) -> [T; 3] {
+        let r = squared_distance(a, b).square_root();
+        if r > T::ZERO {
+            along(-(self.inverse * self.between(a, b) / r), a, b)
+        } else {
+            [T::ZERO; 3]
+        }
     }
 }
 
@@ -48,6 +59,12 @@ impl<T: Real> Covariance<T> for MaternThreeHalves<T> {
         let z = squared_distance(a, b).square_root() * self.inverse;
         (T::ONE + z) * (-z).exponential()
     }
+
+    #[inline(always)]
+    fn gradient(&self, a: [T; 3], b: [T; 3]) -> [T; 3] {
+        let z = squared_distance(a, b).square_root() * self.inverse;
+        along(-(self.inverse * self.inverse * (-z).exponential()), a, b)
+    }
 }
 
 /// Smoothness 5/2: k = ((1 + z) + z²/3)·exp(−z) with z = √5·r/l.
@@ -71,5 +88,12 @@ impl<T: Real> Covariance<T> for MaternFiveHalves<T> {
     fn between(&self, a: [T; 3], b: [T; 3]) -> T {
         let z = squared_distance(a, b).square_root() * self.inverse;
         ((T::ONE + z) + z * z / T::THREE) * (-z).exponential()
+    }
+
+    #[inline(always)]
+    fn gradient(&self, a: [T; 3], b: [T; 3]) -> [T; 3] {
+        let z = squared_distance(a, b).square_root() * self.inverse;
+        let slope = self.inverse * self.inverse / T::THREE * (T::ONE + z);
+        along(-(slope * (-z).exponential()), a, b)
     }
 }

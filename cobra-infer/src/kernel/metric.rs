@@ -69,6 +69,37 @@ impl Metric {
     }
 }
 
+impl Metric {
+    /// The gradient over the unit vector of what has the gradient `over` in these coordinates; without
+    /// meaning across the sphere. Not finite at the poles of the angles, nor where this build does not
+    /// contain the metric.
+    #[must_use]
+    #[inline]
+    pub(crate) fn pull_back(self, [x, y, z]: [f32; 3], over: [f32; 3]) -> [f32; 3] {
+        match self {
+            Self::Chord => over,
+            #[cfg(feature = "angles")]
+            Self::Angles => {
+                let [phi, theta, _] = over;
+                let square = x * x + y * y;
+                let from_axis = square.square_root();
+                let outward = phi * z / from_axis;
+                let around = theta / square;
+                [
+                    outward * x - around * y,
+                    outward * y + around * x,
+                    -(phi * from_axis),
+                ]
+            }
+            #[cfg(not(feature = "angles"))]
+            Self::Angles => {
+                let _ = (x, y, z, over);
+                [f32::NAN; 3]
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Metric;

@@ -98,6 +98,15 @@ impl Model {
 pub trait Covariance<T: Real>: Copy {
     /// k(a, b).
     fn between(&self, a: [T; 3], b: [T; 3]) -> T;
+
+    /// ∂k(a, b)/∂a.
+    fn gradient(&self, a: [T; 3], b: [T; 3]) -> [T; 3];
+}
+
+/// factor·(a − b): what the gradient of a kernel of the distance is.
+#[inline(always)]
+fn along<T: Real>(factor: T, [a0, a1, a2]: [T; 3], [b0, b1, b2]: [T; 3]) -> [T; 3] {
+    [factor * (a0 - b0), factor * (a1 - b1), factor * (a2 - b2)]
 }
 
 /// What is done with a kernel once its formula and numbers are known: [`Kernel::visit`] chooses the
@@ -340,6 +349,31 @@ mod tests {
                 for b in points() {
                     let (ab, ba) = (at(kernel, 0.4, 0.9, a, b), at(kernel, 0.4, 0.9, b, a));
                     assert_eq!(ab.to_bits(), ba.to_bits(), "{}", kernel.name());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_gradient_is_that_of_central_differences() {
+        struct Gradient([f64; 3], [f64; 3]);
+        impl Visitor<f64> for Gradient {
+            type Output = [f64; 3];
+            fn visit(self, kernel: impl Covariance<f64>) -> [f64; 3] {
+                kernel.gradient(self.0, self.1)
+            }
+        }
+        for kernel in Kernel::ALL {
+            for (a, b) in points().into_iter().zip(points().into_iter().skip(1)) {
+                let found = kernel.visit(0.6, 1.3, Gradient(a, b)).unwrap();
+                for axis in 0..3 {
+                    let step = |by: f64| {
+                        let mut moved = a;
+                        moved[axis] += by;
+                        self::at(kernel, 0.6, 1.3, moved, b)
+                    };
+                    let expected = (step(1e-5) - step(-1e-5)) / 2e-5;
+                    assert!((found[axis] - expected).abs() < 1e-7, "{}", kernel.name());
                 }
             }
         }

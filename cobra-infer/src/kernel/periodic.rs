@@ -34,4 +34,14 @@ impl<T: Real> Covariance<T> for Periodic<T> {
         let squares = (square(a0 - b0) + square(a1 - b1)) + square(a2 - b2);
         (-(squares * self.twice_inverse)).exponential()
     }
+
+    /// The derivative of sin²x is sin 2x.
+    #[inline(always)]
+    fn gradient(&self, a: [T; 3], b: [T; 3]) -> [T; 3] {
+        let slope = -(self.twice_inverse * self.frequency * self.between(a, b));
+        let twice = T::TWO * self.frequency;
+        let along = |a: T, b: T| slope * ((a - b) * twice).sine();
+        let ([a0, a1, a2], [b0, b1, b2]) = (a, b);
+        [along(a0, b0), along(a1, b1), along(a2, b2)]
+    }
 }

@@ -1,6 +1,6 @@
 //! The radial basis function, or squared exponential.
 
-use super::{Covariance, squared_distance};
+use super::{Covariance, along, squared_distance};
 use crate::math::Real;
 
 /// k = exp(−s/(2l²)).
@@ -23,5 +23,10 @@ impl<T: Real> Covariance<T> for RadialBasis<T> {
     #[inline(always)]
     fn between(&self, a: [T; 3], b: [T; 3]) -> T {
         (-(squared_distance(a, b) * self.inverse)).exponential()
+    }
+
+    #[inline(always)]
+    fn gradient(&self, a: [T; 3], b: [T; 3]) -> [T; 3] {
+        along(-(T::TWO * self.inverse * self.between(a, b)), a, b)
     }
 }

@@ -1,6 +1,6 @@
 //! The rational quadratic k = (1 + s/(2αl²))^(−α), the paper's kernel, by what its exponent costs.
 
-use super::{Covariance, squared_distance};
+use super::{Covariance, along, squared_distance};
 use crate::math::Real;
 
 /// The rational quadratic with α = 1: k = 1 / (1 + s/(2l²)).
@@ -24,6 +24,12 @@ impl<T: Real> Covariance<T> for RationalQuadraticOne<T> {
     fn between(&self, a: [T; 3], b: [T; 3]) -> T {
         T::ONE / (T::ONE + squared_distance(a, b) * self.inverse)
     }
+
+    #[inline(always)]
+    fn gradient(&self, a: [T; 3], b: [T; 3]) -> [T; 3] {
+        let k = self.between(a, b);
+        along(-(T::TWO * self.inverse * (k * k)), a, b)
+    }
 }
 
 /// The rational quadratic with α = ½: k = 1 / √(1 + s/l²).
@@ -46,6 +52,12 @@ impl<T: Real> Covariance<T> for RationalQuadraticHalf<T> {
     #[inline(always)]
     fn between(&self, a: [T; 3], b: [T; 3]) -> T {
         T::ONE / (T::ONE + squared_distance(a, b) * self.inverse).square_root()
+    }
+
+    #[inline(always)]
+    fn gradient(&self, a: [T; 3], b: [T; 3]) -> [T; 3] {
+        let k = self.between(a, b);
+        along(-(self.inverse * ((k * k) * k)), a, b)
     }
 }
 
@@ -71,5 +83,16 @@ impl<T: Real> Covariance<T> for RationalQuadraticFree<T> {
     #[inline(always)]
     fn between(&self, a: [T; 3], b: [T; 3]) -> T {
         (T::ONE + squared_distance(a, b) * self.inverse).power(self.minus_exponent)
+    }
+
+    #[inline(always)]
+    fn gradient(&self, a: [T; 3], b: [T; 3]) -> [T; 3] {
+        let base = T::ONE + squared_distance(a, b) * self.inverse;
+        let k = base.power(self.minus_exponent);
+        along(
+            T::TWO * self.minus_exponent * self.inverse * (k / base),
+            a,
+            b,
+        )
     }
 }

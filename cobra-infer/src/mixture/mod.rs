@@ -18,6 +18,7 @@ mod reach;
 mod search;
 mod settings;
 mod slabs;
+mod slope;
 mod soft;
 
 use crate::bound;
@@ -158,7 +159,7 @@ impl<'t, const COMPONENTS: usize> Mixture<'t, COMPONENTS> {
         if let Some(validities) = self.template.validities()
             && self.assignment == Assignment::Maximum
         {
-            self.reach.prune(validities);
+            self.reach.prune(validities, self.likelihood);
         }
     }
 

@@ -1,5 +1,6 @@
 //! That nobody sees which components were passed over.
 
+use super::reach::Look;
 use super::{Assignment, Likelihood, Match, Mixture, Settings, Sigma};
 use crate::gp::{Hyperparameters, UnitDirection, evaluations};
 use crate::kernel::{Exponent, Kernel, Model};
@@ -88,6 +89,7 @@ fn encoded(parts: &[Part], centre: [f32; 3]) -> Vec<u8> {
         model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
         components: &components,
         quality: None,
+        depth: None,
     };
     let mut bytes = vec![0; encoded_len(&source)];
     let length = encode(&source, &mut bytes).unwrap();
@@ -107,7 +109,7 @@ fn settings(likelihood: Likelihood, sigma: Sigma) -> Settings {
 /// The mixture that asks every component.
 fn unpruned<'t>(template: &'t Template<'t>, settings: &Settings) -> Mixture<'t, MOST> {
     let mut mixture = Mixture::new(template, settings).unwrap();
-    mixture.reach.first = f32::INFINITY;
+    mixture.reach.first = Look::EVERYWHERE;
     mixture
 }
 
@@ -324,7 +326,7 @@ fn components_of_every_group_are_found() {
     let settings = settings(Likelihood::Peak, Sigma::Template { noise: 0.0 });
     let some = Mixture::<70>::new(&template, &settings).unwrap();
     let mut all = some.clone();
-    all.reach.first = f32::INFINITY;
+    all.reach.first = Look::EVERYWHERE;
     for (index, part) in parts.iter().enumerate() {
         let [x, ..] = part.centre;
         for off in [0.0, 0.3, 2.5, 6.0] {

@@ -19,10 +19,9 @@ impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
         let mut best = None;
         let mut least = f32::INFINITY;
         let mut asked = None;
-        let mut reach = self.reach.first;
-        // The second look reaches as far as the first one's answer asks for, and can only improve it.
+        let mut look = self.reach.first;
         loop {
-            let window = self.reach.window(at, reach);
+            let window = self.reach.window(at, look.reach);
             for group in 0..self.prepared.len().div_ceil(GROUP) {
                 let mut left = self.reach.meeting(group, window, self.prepared.len());
                 while left != 0 {
@@ -54,11 +53,11 @@ impl<const COMPONENTS: usize> Mixture<'_, COMPONENTS> {
                     }
                 }
             }
-            if asked.is_some() || least <= self.reach.enough {
+            if least <= look.enough {
                 break;
             }
             asked = Some(window);
-            reach = self.reach.needed(least);
+            look = self.reach.after(look, least);
         }
         best
     }

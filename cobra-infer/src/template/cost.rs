@@ -109,6 +109,7 @@ mod tests {
             model: Model::chord(kernel),
             components: &components,
             quality: None,
+            depth: None,
         };
         let mut bytes = vec![0; encoded_len(&source)];
         let length = encode(&source, &mut bytes).unwrap();

@@ -3,6 +3,8 @@
 //! Here and not in the trainer, because the format exists once. What was written is read back and
 //! validated, so that no file is made that a controller would refuse.
 
+use super::Template;
+use super::encode_depth;
 use super::encode_error::EncodeError;
 use super::encode_validity::{self, Cells};
 use super::error::Section;
@@ -41,6 +43,7 @@ pub fn encoded_len(source: &TemplateSource<'_>) -> usize {
         .fold(HEADER_LENGTH, usize::saturating_add)
         .saturating_add(sections)
         .saturating_add(unexplained.saturating_mul(2))
+        .saturating_add(encode_depth::length(source.depth.as_ref()))
 }
 
 /// The bytes of a component's terms.
@@ -59,12 +62,11 @@ fn run_length(terms: &TermsSource<'_>) -> usize {
 ///
 /// # Errors
 /// [`EncodeError`]: a name that is too long, unequal numbers of directions and weights, components
-/// that differ in what they have, a grid of the wrong size, a buffer that is too small, or content
-/// that [`super::Template::from_bytes`] would refuse.
+/// that differ in what they have, a grid of the wrong size, a provenance that is too long, a buffer
+/// that is too small, or content that [`super::Template::from_bytes`] would refuse.
 pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, EncodeError> {
     source::check(source)?;
     let first = source.components.first();
-    let found = out.len();
     let mut used = HEADER_LENGTH;
     section(
         out,
@@ -135,23 +137,33 @@ pub fn encode(source: &TemplateSource<'_>, out: &mut [u8]) -> Result<usize, Enco
             },
         )?;
     }
-    let written = out.get_mut(..used).ok_or(EncodeError::Buffer { found })?;
-    let (header, payload) = written
-        .split_first_chunk_mut::<HEADER_LENGTH>()
-        .ok_or(EncodeError::Buffer { found })?;
-    *header = Header {
-        length: u32::try_from(used).map_err(|_| EncodeError::TooLarge)?,
-        checksum: wire::checksum(payload),
+    if let Some(depth) = &source.depth {
+        encode_depth::write(depth, out, &mut used)?;
     }
-    .to_bytes();
-    let template = validate::template(written).map_err(EncodeError::Invalid)?;
+    let template = seal(out, used)?;
     if source.quality.is_some() && template.quality().is_none() {
         return Err(EncodeError::Quality);
     }
     Ok(used)
 }
 
-fn section<T: Serialize>(
+/// Writes the header before the sections that end at `used`, and reads all of it back.
+pub(super) fn seal(out: &mut [u8], used: usize) -> Result<Template<'_>, EncodeError> {
+    let buffer = EncodeError::Buffer { found: out.len() };
+    let written = out.get_mut(..used).ok_or(buffer)?;
+    let (header, payload) = written
+        .split_first_chunk_mut::<HEADER_LENGTH>()
+        .ok_or(buffer)?;
+    *header = Header {
+        length: u32::try_from(used).map_err(|_| EncodeError::TooLarge)?,
+        checksum: wire::checksum(payload),
+    }
+    .to_bytes();
+    validate::template(written).map_err(EncodeError::Invalid)
+}
+
+/// Appends a section behind what is used of the buffer.
+pub(super) fn section<T: Serialize>(
     out: &mut [u8],
     used: &mut usize,
     section: Section,

@@ -32,6 +32,13 @@ pub enum EncodeError {
     },
     /// The quality has not one share for each component, or a number that is no share or no deviation.
     Quality,
+    /// The words that say where a calibration comes from do not fit; without a calibration none does.
+    Provenance {
+        /// Bytes that fit.
+        capacity: usize,
+        /// Bytes there are.
+        found: usize,
+    },
     /// A component has not as many directions as weights, or not the nodes that its map needs.
     TermCount {
         /// Which component.
@@ -81,6 +88,10 @@ impl fmt::Display for EncodeError {
             EncodeError::Quality => f.write_str(
                 "the quality needs a share from 0 to 1 for each component, and deviations of at \
                  least 0",
+            ),
+            EncodeError::Provenance { capacity, found } => write!(
+                f,
+                "the calibration's provenance has {found} bytes, at most {capacity} fit"
             ),
             EncodeError::TermCount {
                 component,

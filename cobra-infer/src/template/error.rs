@@ -22,6 +22,8 @@ pub enum Section {
     Validity,
     /// What was measured of the template.
     Quality,
+    /// What it knows for depth mode.
+    Depth,
 }
 
 impl Section {
@@ -36,6 +38,7 @@ impl Section {
             Section::Precisions => "precisions",
             Section::Validity => "validity",
             Section::Quality => "quality",
+            Section::Depth => "depth",
         }
     }
 }
@@ -287,5 +290,12 @@ pub enum TemplateError {
         expected: usize,
         /// Bytes there are.
         found: usize,
+    },
+    /// A number of the depth section is out of its range.
+    DepthNumber {
+        /// Which one.
+        number: Number,
+        /// Its value.
+        found: f32,
     },
 }

@@ -1,6 +1,7 @@
 //! What an error says of a template: what was expected, what was found, and where.
 
 use super::error::TemplateError;
+use super::number::{Number, Range};
 use core::fmt;
 
 impl fmt::Display for TemplateError {
@@ -192,7 +193,26 @@ impl fmt::Display for TemplateError {
                 f,
                 "the components use {expected} bytes of cells, but the validity section holds {found}"
             ),
+            E::DepthNumber { number, found } => write!(
+                f,
+                "the depth section's {} must be {}, found {found}",
+                number.name(),
+                of_depth(number)
+            ),
         }
+    }
+}
+
+/// What a number of the depth section must be.
+const fn of_depth(number: Number) -> &'static str {
+    match number {
+        Number::Accept | Number::Reject => "in order: 0 <= reject <= accept <= 1",
+        Number::Target => "above 0, no subnormal, and at most 1",
+        Number::FalseAccepts | Number::LowerBound | Number::UpperBound => {
+            "in order: 0 <= lower bound <= rate <= upper bound <= 1"
+        }
+        Number::Estimates => "at least 1",
+        _ => Range::Normal.text(),
     }
 }
 

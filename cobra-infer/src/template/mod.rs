@@ -7,7 +7,9 @@
 
 mod cost;
 mod decoded;
+mod depth;
 mod encode;
+mod encode_depth;
 mod encode_error;
 mod encode_validity;
 mod error;
@@ -26,7 +28,12 @@ mod wire;
 
 pub use cost::Cost;
 pub use decoded::DecodedTerm;
+pub use depth::{
+    CALIBRATION_LENGTH, Calibration, CalibrationSource, DepthRecord, DepthSource, MeasuredShare,
+    PROVENANCE_CAPACITY,
+};
 pub use encode::{encode, encoded_len};
+pub use encode_depth::{DEPTH_CAPACITY, with_depth};
 pub use encode_error::EncodeError;
 pub use error::{Section, TemplateError};
 pub use number::{Number, Range};
@@ -61,6 +68,8 @@ pub struct Template<'a> {
     values: TermValues<'a>,
     validities: Option<Validities<'a>>,
     quality: Option<&'a [u8]>,
+    /// Checked when it was loaded.
+    depth: Option<&'a [u8]>,
 }
 
 /// One component of a template: a reference point and the Gaussian process around it.
@@ -110,10 +119,7 @@ impl<'a> Template<'a> {
     /// none. Loading does not look at it: a controller that shows no name links no check.
     #[must_use]
     pub fn name(&self) -> &'a str {
-        self.name
-            .utf8_chunks()
-            .next()
-            .map_or("", |chunk| chunk.valid())
+        text(self.name)
     }
 
     /// The unit of every length in the template.
@@ -197,6 +203,12 @@ impl<'a> Template<'a> {
         Quality::read(self.quality?, self.component_count())
     }
 
+    /// What the template knows for depth mode, where it says so; a few words, read anew at each call.
+    #[must_use]
+    pub fn depth(&self) -> Option<DepthRecord<'a>> {
+        DepthRecord::read(self.depth?).ok()
+    }
+
     /// How many components there are; at least one.
     #[must_use]
     pub fn component_count(&self) -> usize {
@@ -264,4 +276,9 @@ impl Component<'_> {
     pub fn posterior_mean(&self, model: Model, u: &UnitDirection) -> f32 {
         gp::posterior_mean(model, &self.hyperparameters, &self.terms, u)
     }
+}
+
+/// Bytes that ought to be UTF-8; of those that are none, what there is before the first such byte.
+fn text(bytes: &[u8]) -> &str {
+    bytes.utf8_chunks().next().map_or("", |chunk| chunk.valid())
 }

@@ -5,7 +5,7 @@
 
 use crate::kernel::{Exponent, Kernel};
 
-/// A number of the object section or of a component.
+/// A number of the object section, of a component or of the depth section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Number {
@@ -43,6 +43,22 @@ pub enum Number {
     MapSpacing,
     /// A coordinate of a map's origin.
     MapOrigin,
+    /// σ_m as a share of the diameter.
+    NoiseShare,
+    /// The least confidence that is accepted.
+    Accept,
+    /// The least confidence that is not rejected.
+    Reject,
+    /// The share of wrong estimates that may be accepted.
+    Target,
+    /// The share of wrong estimates that were.
+    FalseAccepts,
+    /// The lower bound of that share.
+    LowerBound,
+    /// Its upper bound.
+    UpperBound,
+    /// How many wrong or right estimates a calibration is of.
+    Estimates,
 }
 
 impl Number {
@@ -67,6 +83,14 @@ impl Number {
             Self::MapScale => "the scale of the map",
             Self::MapSpacing => "the spacing of the map",
             Self::MapOrigin => "the origin of the map",
+            Self::NoiseShare => "noise as a share of the diameter",
+            Self::Accept => "threshold to accept",
+            Self::Reject => "threshold to reject",
+            Self::Target => "false-accept rate aimed at",
+            Self::FalseAccepts => "false-accept rate",
+            Self::LowerBound => "lower bound of the false-accept rate",
+            Self::UpperBound => "upper bound of the false-accept rate",
+            Self::Estimates => "number of wrong or right estimates",
         }
     }
 

@@ -3,6 +3,7 @@
 //! Owns the content as it is handed over, and the mistakes in it that bytes could not show.
 
 use super::Precision;
+use super::depth::DepthSource;
 use super::encode_error::EncodeError;
 use super::wire::{NAME_CAPACITY, TermEncoding};
 use crate::gp::{Hyperparameters, UnitDirection};
@@ -29,6 +30,8 @@ pub struct TemplateSource<'a> {
     pub components: &'a [ComponentSource<'a>],
     /// What was measured of it, for whoever inspects it; scoring does not read it.
     pub quality: Option<QualitySource<'a>>,
+    /// What it knows for depth mode.
+    pub depth: Option<DepthSource<'a>>,
 }
 
 /// The content of one component.

@@ -95,6 +95,16 @@ impl<'a> Stored<'a> {
         gp::posterior_mean_at(model, &self.hyperparameters(), &self.terms(), u, square)
     }
 
+    /// The gradient of the mean in a direction.
+    pub(crate) fn posterior_gradient(&self, model: Model, u: &UnitDirection) -> [f32; 3] {
+        gp::posterior_gradient(model, &self.hyperparameters(), &self.terms(), u)
+    }
+
+    /// The component's average distance, where that is its prior mean.
+    pub(crate) fn prior_mean(&self) -> f32 {
+        self.hyperparameters().prior_mean
+    }
+
     /// All of it, with the precision and the validity that belong to it.
     pub(super) fn component(
         &self,

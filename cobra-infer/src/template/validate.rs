@@ -1,5 +1,6 @@
 //! Everything that is checked before a template is used.
 
+use super::depth::DepthRecord;
 use super::error::{Section, TemplateError};
 use super::number::Number;
 use super::validate_components::{check_components, check_precisions, normal};
@@ -81,6 +82,7 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
             None => None,
         },
         quality: bodies.quality,
+        depth: bodies.depth,
     });
     if let Ok(template) = &result {
         check_object(template)?;
@@ -89,6 +91,9 @@ pub(super) fn template(bytes: &[u8]) -> Result<Template<'_>, TemplateError> {
         check_precisions(template)?;
         if let Some(validities) = &template.validities {
             validate_validity::check(validities, template.component_count())?;
+        }
+        if let Some(body) = template.depth {
+            DepthRecord::read(body)?;
         }
     }
     result
@@ -103,6 +108,7 @@ struct Bodies<'a> {
     precisions: Option<&'a [u8]>,
     validity: Option<&'a [u8]>,
     quality: Option<&'a [u8]>,
+    depth: Option<&'a [u8]>,
 }
 
 impl<'a> Bodies<'a> {
@@ -114,6 +120,7 @@ impl<'a> Bodies<'a> {
         let mut precisions = None;
         let mut validity = None;
         let mut quality = None;
+        let mut depth = None;
         let mut rest = payload;
         while !rest.is_empty() {
             let offset = HEADER_LENGTH.saturating_add(payload.len().saturating_sub(rest.len()));
@@ -145,6 +152,7 @@ impl<'a> Bodies<'a> {
                 Section::Precisions => &mut precisions,
                 Section::Validity => &mut validity,
                 Section::Quality => &mut quality,
+                Section::Depth => &mut depth,
             };
             if place.replace(body).is_some() {
                 return Err(TemplateError::DuplicateSection { section });
@@ -161,11 +169,15 @@ impl<'a> Bodies<'a> {
             precisions,
             validity,
             quality,
+            depth,
         })
     }
 }
 
-fn decode<'a, T: Deserialize<'a>>(section: Section, body: &'a [u8]) -> Result<T, TemplateError> {
+pub(super) fn decode<'a, T: Deserialize<'a>>(
+    section: Section,
+    body: &'a [u8],
+) -> Result<T, TemplateError> {
     let (value, rest) =
         postcard::take_from_bytes(body).map_err(|_| TemplateError::MalformedSection { section })?;
     if rest.is_empty() {

@@ -191,13 +191,14 @@ pub(super) const fn tag(section: Section) -> u16 {
         Section::Precisions => 5,
         Section::Validity => 6,
         Section::Quality => 7,
+        Section::Depth => 8,
     }
 }
 
 /// The flags that a section is written with.
 pub(super) const fn flags(section: Section) -> u16 {
     match section {
-        Section::Quality => 0,
+        Section::Quality | Section::Depth => 0,
         _ => REQUIRED,
     }
 }
@@ -211,6 +212,7 @@ pub(super) fn section_of(found: u16) -> Option<Section> {
         Section::Precisions,
         Section::Validity,
         Section::Quality,
+        Section::Depth,
     ]
     .into_iter()
     .find(|section| tag(*section) == found)
@@ -268,6 +270,16 @@ pub(super) struct QualitySection<B> {
     pub(super) deviation_rms: f32,
     /// A little-endian `u16` for each component, in 1/65535.
     pub(super) unexplained: B,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct DepthSection<'a> {
+    // A word, as in the object section.
+    pub(super) noise_share: Word,
+    /// Empty, or one record.
+    pub(super) calibration: &'a [u8],
+    /// A postcard string, which is a byte array that ought to be UTF-8.
+    pub(super) provenance: &'a [u8],
 }
 
 /// The term range that a record names: the first term, or the first byte of compact ones, and the

@@ -2,8 +2,8 @@
 
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
 use cobra_infer::template::{
-    ComponentSource, Precision, QualitySource, TemplateSource, TermsSource, ValiditySource, encode,
-    encoded_len,
+    ComponentSource, DepthSource, Precision, QualitySource, TemplateSource, TermsSource,
+    ValiditySource, encode, encoded_len,
 };
 use cobra_infer::validity::Pole;
 use cobra_infer::{EncodeError, Exponent, Kernel, Metric, Model, Unit};
@@ -73,6 +73,7 @@ pub(crate) struct Content {
     pub(crate) model: Model,
     pub(crate) parts: Vec<Part>,
     pub(crate) quality: Option<Measured>,
+    pub(crate) depth: Option<DepthSource<'static>>,
 }
 
 impl Content {
@@ -127,6 +128,7 @@ impl Content {
                 deviation_rms: measured.deviations[1],
                 unexplained: &measured.unexplained,
             }),
+            depth: self.depth,
         };
         let mut bytes = vec![0; encoded_len(&source)];
         let length = encode(&source, &mut bytes)?;
@@ -169,6 +171,7 @@ impl Content {
             model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
             parts: vec![part(-2.0, 3), part(2.0, 2)],
             quality: None,
+            depth: None,
         }
     }
 
@@ -266,6 +269,7 @@ pub(crate) fn content() -> impl Strategy<Value = Content> {
                 model,
                 parts,
                 quality: None,
+                depth: None,
             },
         )
 }

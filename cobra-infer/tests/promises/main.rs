@@ -7,6 +7,11 @@
 mod charts;
 mod content;
 mod decisions;
+mod depth;
+mod depth_input;
+mod depth_reasons;
+mod depth_scene;
+mod depth_section;
 mod geometry;
 mod hostile_input;
 mod invariance;
@@ -24,5 +29,6 @@ mod template_numbers;
 mod template_round_trip;
 mod template_sections;
 mod tolerance;
+mod tracking;
 mod uncovered;
 mod validity;

@@ -6,6 +6,7 @@ pub(crate) const OBJECT: u16 = 1;
 pub(crate) const MODEL: u16 = 2;
 pub(crate) const COMPONENTS: u16 = 3;
 pub(crate) const TERMS: u16 = 4;
+pub(crate) const DEPTH: u16 = 8;
 
 /// The flag of a section that a reader must understand.
 pub(crate) const REQUIRED: u16 = 1;

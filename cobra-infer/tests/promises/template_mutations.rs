@@ -80,7 +80,7 @@ proptest! {
 
     #[test]
     fn random_sections_never_panic(
-        bodies in vec((0_u16..8, 0_u16..2, vec(any::<u8>(), 0..120)), 0..6),
+        bodies in vec((0_u16..9, 0_u16..2, vec(any::<u8>(), 0..120)), 0..6),
     ) {
         let sections: Vec<Raw> = bodies
             .into_iter()

@@ -200,6 +200,7 @@ fn a_buffer_a_byte_too_small_is_refused_at_any_size() {
         model: content.model,
         components: &one,
         quality: None,
+        depth: None,
     };
     let mut buffer = vec![0xa5; needed];
     let length = encode(&source, &mut buffer).unwrap();

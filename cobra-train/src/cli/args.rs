@@ -1,5 +1,8 @@
 //! The arguments of `cobra`, with the help that goes with them.
 
+use super::ambiguity::AmbiguityArguments;
+use super::bop::BopArguments;
+use super::calibrate::CalibrateArguments;
 use super::choices::{
     AssignmentArgument, BudgetArgument, ExponentArgument, ExportFormat, KernelArgument,
     LikelihoodArgument, MeanArgument, MetricArgument, SamplingArgument, ThresholdArgument,
@@ -7,6 +10,7 @@ use super::choices::{
     positive,
 };
 use super::learning::{OptimiserArgument, PriorMeanArgument, SubsetArgument, subset};
+use super::overlay::OverlayArguments;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use cobra_train::export::Identifier;
@@ -51,6 +55,14 @@ pub(crate) enum Command {
     Score(ScoreArguments),
     /// Measure how well a template reproduces a mesh or a point cloud
     Eval(EvalArguments),
+    /// Work with data sets and results files of the BOP benchmark
+    Bop(BopArguments),
+    /// Find wrong poses that score as well as the true one: symmetries, and what is nearly one
+    Ambiguity(AmbiguityArguments),
+    /// Find the thresholds for a false-accept rate on labelled estimates, and store them in a template
+    Calibrate(CalibrateArguments),
+    /// Draw estimated poses over their image: residuals, box, decision and reason, as a PNG
+    Overlay(OverlayArguments),
     /// Show what is in a template, its size and its cost
     Inspect(InspectArguments),
     /// Write a template as a file, as Rust or as C, for firmware that keeps it in flash
@@ -239,7 +251,7 @@ pub(crate) struct ScoreArguments {
     pub(crate) sigma_hat: Option<f32>,
 
     /// Standard deviation of the measurement in mm, added to the template's in quadrature
-    #[arg(long, value_name = "MM", value_parser = not_negative, default_value_t = 0.0)]
+    #[arg(long, value_name = "MM", value_parser = not_negative::<f32>, default_value_t = 0.0)]
     pub(crate) noise: f32,
 
     /// Tolerance in mm that the threshold stands for [default: 1 % of the object's diameter]

@@ -8,6 +8,7 @@ use cobra_infer::{
 use cobra_train::export::Identifier;
 use cobra_train::input::Weighting;
 use cobra_train::train::{MeanForm, Overlap, SurfaceSampling, Validity};
+use std::str::FromStr;
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum UnitArgument {
@@ -261,9 +262,9 @@ pub(super) fn positive(text: &str) -> Result<f32, String> {
     }
 }
 
-pub(super) fn not_negative(text: &str) -> Result<f32, String> {
-    match text.parse::<f32>() {
-        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+pub(super) fn not_negative<T: FromStr + Copy + Into<f64>>(text: &str) -> Result<T, String> {
+    match text.parse::<T>() {
+        Ok(value) if value.into().is_finite() && value.into() >= 0.0 => Ok(value),
         _ => Err("expected a number of at least 0, in millimetres".to_owned()),
     }
 }

@@ -4,15 +4,15 @@ use super::args::DemoArguments;
 use super::failure::Failure;
 use super::report::table;
 use super::terminal::Terminal;
-use cobra_infer::{Decision, Pose, Report, Settings, Sigma, Template, score};
+use cobra_infer::{Decision, Report, Settings, Sigma, Template, score};
 use cobra_train::demo::{
     MEASUREMENT_NOISE, ScoredPose, SimulatedEstimate, VIEW, draw, encode_png, mechanical_part,
     scorer_camera, simulate,
 };
 use cobra_train::output::write_whole;
+use cobra_train::pose::single_pose;
 use cobra_train::progress::Progress;
 use cobra_train::train::{LARGEST_TEMPLATE, TrainOptions, train};
-use nalgebra::Isometry3;
 
 /// Rows of the table that is printed; all rows are in the CSV file.
 const ROWS: usize = 20;
@@ -87,7 +87,7 @@ fn judge(
     template: &Template<'_>,
     estimate: SimulatedEstimate,
 ) -> Result<(SimulatedEstimate, Report), Failure> {
-    let pose = to_pose(&estimate.pose)
+    let pose = single_pose(&estimate.pose)
         .map_err(|error| Failure::BadInput(format!("simulated pose: {error}")))?;
     let settings = Settings {
         delta: 0.01 * template.diameter(),
@@ -104,15 +104,6 @@ fn judge(
         &estimate.correspondences,
     )?;
     Ok((estimate, report))
-}
-
-fn to_pose(pose: &Isometry3<f64>) -> Result<Pose, cobra_infer::PoseError> {
-    let rotation = pose.rotation.to_rotation_matrix().cast::<f32>();
-    // nalgebra stores columns; the transposed matrix's columns are the rows.
-    let rows = rotation.matrix().transpose();
-    let mut r = [0.0; 9];
-    r.copy_from_slice(rows.as_slice());
-    Pose::from_row_major(r, pose.translation.vector.cast::<f32>().into())
 }
 
 fn csv(scored: &[(SimulatedEstimate, Report)]) -> String {

@@ -1,7 +1,11 @@
 //! What ends the command early, and the exit code that says so.
 
 use cobra_infer::{ScoreError, TemplateError};
-use cobra_train::input::{ReadCameraError, ReadCorrespondencesError, ReadEstimatesError};
+use cobra_train::bop::dataset::DatasetError;
+use cobra_train::bop::results::ReadResultsError;
+use cobra_train::input::{
+    ReadCameraError, ReadCorrespondencesError, ReadEstimatesError, ReadReportError,
+};
 use cobra_train::output::WriteError;
 use cobra_train::reference::ReadReferencePointsError;
 use cobra_train::surface::ReadMeshError;
@@ -61,6 +65,18 @@ impl From<WriteError> for Failure {
     }
 }
 
+impl From<DatasetError> for Failure {
+    fn from(error: DatasetError) -> Self {
+        Self::from(&error)
+    }
+}
+
+impl From<ReadResultsError> for Failure {
+    fn from(error: ReadResultsError) -> Self {
+        classify(error.is_io(), &error)
+    }
+}
+
 impl From<ReadMeshError> for Failure {
     fn from(error: ReadMeshError) -> Self {
         classify(error.is_io(), &error)
@@ -94,6 +110,19 @@ impl From<ReadCorrespondencesError> for Failure {
         let io =
             matches!(&error, ReadCorrespondencesError::Io { source, .. } if !is_content(source));
         classify(io, &error)
+    }
+}
+
+impl From<ReadReportError> for Failure {
+    fn from(error: ReadReportError) -> Self {
+        let io = matches!(&error, ReadReportError::Io { source, .. } if !is_content(source));
+        classify(io, &error)
+    }
+}
+
+impl From<&DatasetError> for Failure {
+    fn from(error: &DatasetError) -> Self {
+        classify(error.is_io(), error)
     }
 }
 

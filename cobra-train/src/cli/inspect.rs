@@ -1,5 +1,7 @@
 //! `cobra inspect`: what is in a template.
 
+mod depth;
+
 use super::args::InspectArguments;
 use super::failure::Failure;
 use super::outputs;
@@ -9,6 +11,7 @@ use super::terminal::Terminal;
 use cobra_infer::template::{Quality, RECORD_LENGTH, VERSION};
 use cobra_infer::{Assignment, Template};
 use cobra_train::export::{counted, elements, features};
+use depth::DepthDocument;
 use serde::Serialize;
 
 pub(super) fn run(arguments: &InspectArguments, terminal: &Terminal) -> Result<(), Failure> {
@@ -56,6 +59,8 @@ struct Document {
     /// What training measured on points that it did not learn from; `null` where the template does
     /// not say.
     quality: Option<QualityDocument>,
+    /// What it knows for depth mode; `null` where it knows nothing.
+    depth: Option<DepthDocument>,
     components: Vec<ComponentDocument>,
 }
 
@@ -150,6 +155,7 @@ impl Document {
                     rms: quality.deviation_rms,
                 }),
             }),
+            depth: template.depth().map(|depth| DepthDocument::new(&depth)),
             components: template
                 .components()
                 .map(|component| ComponentDocument {
@@ -203,6 +209,10 @@ fn text(document: &Document, terms: &str, counted: &str) -> String {
     if document.quality.is_some() {
         header.push("unexplained %");
     }
+    let depth = document
+        .depth
+        .as_ref()
+        .map_or_else(String::new, DepthDocument::text);
     format!(
         "object      {}\n\
          unit        {unit}\n\
@@ -213,7 +223,7 @@ fn text(document: &Document, terms: &str, counted: &str) -> String {
          components  {}, {}; they speak {}\n\
          {terms}       {}, {}\n\
          quality     {}\n\
-         size        {} bytes: {} {terms}, {} component records, {} validity, {} the rest\n\
+         {depth}size        {} bytes: {} {terms}, {} component records, {} validity, {} the rest\n\
          cost        {counted} a point: at most {} (nearest), {} (max, soft)\n\n{}",
         document.name,
         document.radius,

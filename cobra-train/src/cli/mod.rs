@@ -3,7 +3,10 @@
 //! Owns what is particular to a terminal: arguments, progress, tables, exit codes. Everything that
 //! another program could want is in the library.
 
+mod ambiguity;
 mod args;
+mod bop;
+mod calibrate;
 mod choices;
 mod coverage;
 mod covered;
@@ -15,8 +18,10 @@ mod inspect;
 mod learning;
 mod object;
 mod outputs;
+mod overlay;
 mod report;
 mod score;
+mod sources;
 mod template_file;
 mod terminal;
 mod train;
@@ -36,6 +41,10 @@ pub(crate) fn run() -> ExitCode {
         Command::Train(arguments) => train::run(arguments, &terminal),
         Command::Score(arguments) => score::run(arguments, &terminal),
         Command::Eval(arguments) => eval::run(arguments, &terminal),
+        Command::Bop(arguments) => bop::run(arguments, &terminal),
+        Command::Ambiguity(arguments) => ambiguity::run(arguments, &terminal),
+        Command::Calibrate(arguments) => calibrate::run(arguments, &terminal),
+        Command::Overlay(arguments) => overlay::run(arguments, &terminal),
         Command::Inspect(arguments) => inspect::run(arguments, &terminal),
         Command::Export(arguments) => export::run(arguments, &terminal),
         Command::Completions { shell } => {

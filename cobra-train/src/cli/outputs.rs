@@ -21,6 +21,33 @@ pub(super) fn check(inputs: &[&Path], outputs: &[&Path]) -> Result<(), Failure> 
     Ok(())
 }
 
+/// What is read of a data set: not all of its folder, where results may lie too.
+pub(super) fn read_of(dataset: &Path, split: &str) -> Vec<PathBuf> {
+    let read = [split, "models", "models_eval", "camera.json"];
+    read.map(|name| dataset.join(name)).to_vec()
+}
+
+/// Refuses an output that would replace what lies in a folder that is read.
+pub(super) fn check_folders(folders: &[PathBuf], outputs: &[&Path]) -> Result<(), Failure> {
+    for output in outputs {
+        let Ok(file) = output.canonicalize() else {
+            continue;
+        };
+        let read = |folder: &&PathBuf| {
+            let folder = folder.canonicalize();
+            file.is_file() && folder.is_ok_and(|folder| file.starts_with(folder))
+        };
+        if let Some(folder) = folders.iter().find(read) {
+            return Err(Failure::Usage(format!(
+                "{} would be replaced, and lies in {}, which is an input",
+                output.display(),
+                folder.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// The file that an option names, if it names one rather than standard output.
 pub(super) fn named_file(option: Option<&PathBuf>) -> Option<&Path> {
     option

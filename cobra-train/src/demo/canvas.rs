@@ -23,14 +23,14 @@ type Outcome = Result<(), DrawingErrorKind<Infallible>>;
 ///
 /// A text's box reaches from its baseline to the height of its capitals: anchored in the middle,
 /// text looks centred, and descenders hang below the box.
-pub(super) struct Canvas<'a> {
+pub(crate) struct Canvas<'a> {
     image: &'a mut RgbImage,
     regular: FontRef<'static>,
     bold: FontRef<'static>,
 }
 
 impl<'a> Canvas<'a> {
-    pub(super) fn new(image: &'a mut RgbImage) -> Self {
+    pub(crate) fn new(image: &'a mut RgbImage) -> Self {
         let font = |bytes| FontRef::try_from_slice(bytes).expect("the embedded font is a font");
         Self {
             image,

@@ -3,7 +3,7 @@
 
 mod axis;
 mod camera;
-mod canvas;
+pub(crate) mod canvas;
 mod image;
 mod outline;
 mod panel;
@@ -13,7 +13,7 @@ mod render;
 mod scatter;
 mod simulate;
 mod solid;
-mod style;
+pub(crate) mod style;
 
 pub use camera::Camera;
 pub use image::RgbImage;

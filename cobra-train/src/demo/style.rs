@@ -14,25 +14,25 @@ use super::canvas::Canvas;
 use super::picture::Verdict;
 
 /// The page is drawn this many times larger, and then reduced.
-pub(super) const SUPERSAMPLING: i32 = 2;
+pub(crate) const SUPERSAMPLING: i32 = 2;
 
 /// A length of the finished picture, in pixels of the page.
-pub(super) const fn px(length: i32) -> i32 {
+pub(crate) const fn px(length: i32) -> i32 {
     length * SUPERSAMPLING
 }
 
-pub(super) const PAPER: RGBColor = RGBColor(255, 255, 255);
-pub(super) const INK: RGBColor = RGBColor(28, 32, 40);
-pub(super) const QUIET: RGBColor = RGBColor(92, 98, 110);
-pub(super) const HAIRLINE: RGBColor = RGBColor(226, 229, 234);
+pub(crate) const PAPER: RGBColor = RGBColor(255, 255, 255);
+pub(crate) const INK: RGBColor = RGBColor(28, 32, 40);
+pub(crate) const QUIET: RGBColor = RGBColor(92, 98, 110);
+pub(crate) const HAIRLINE: RGBColor = RGBColor(226, 229, 234);
 
-pub(super) type Page<'a> = DrawingArea<Canvas<'a>, Shift>;
-pub(super) type Drawn = Result<(), DrawingAreaErrorKind<Infallible>>;
+pub(crate) type Page<'a> = DrawingArea<Canvas<'a>, Shift>;
+pub(crate) type Drawn = Result<(), DrawingAreaErrorKind<Infallible>>;
 
 impl Verdict {
     pub(super) const ALL: [Self; 3] = [Self::Accept, Self::Undecided, Self::Reject];
 
-    pub(super) fn colour(self) -> RGBColor {
+    pub(crate) fn colour(self) -> RGBColor {
         match self {
             Self::Accept => RGBColor(0, 124, 118),
             Self::Undecided => RGBColor(104, 110, 124),
@@ -41,7 +41,7 @@ impl Verdict {
     }
 
     /// What lies behind a panel: a breath of the decision's colour.
-    pub(super) fn background(self) -> [u8; 3] {
+    pub(crate) fn background(self) -> [u8; 3] {
         match self {
             Self::Accept => [238, 248, 247],
             Self::Undecided => [243, 244, 246],
@@ -49,7 +49,7 @@ impl Verdict {
         }
     }
 
-    pub(super) fn verdict(self) -> &'static str {
+    pub(crate) fn verdict(self) -> &'static str {
         match self {
             Self::Accept => "ACCEPT",
             Self::Undecided => "UNDECIDED",
@@ -67,7 +67,7 @@ impl Verdict {
 }
 
 /// Type of `size` pixels of the finished picture.
-pub(super) fn text(size: i32, colour: RGBColor, across: HPos, up: VPos) -> TextStyle<'static> {
+pub(crate) fn text(size: i32, colour: RGBColor, across: HPos, up: VPos) -> TextStyle<'static> {
     TextStyle {
         font: ("sans-serif", px(size)).into_font(),
         color: colour.to_backend_color(),
@@ -76,7 +76,7 @@ pub(super) fn text(size: i32, colour: RGBColor, across: HPos, up: VPos) -> TextS
 }
 
 /// As [`text`], in bold.
-pub(super) fn bold(size: i32, colour: RGBColor, across: HPos, up: VPos) -> TextStyle<'static> {
+pub(crate) fn bold(size: i32, colour: RGBColor, across: HPos, up: VPos) -> TextStyle<'static> {
     let style = text(size, colour, across, up);
     TextStyle {
         font: style.font.style(FontStyle::Bold),
@@ -110,7 +110,7 @@ pub(super) fn mark(page: &Page, decision: Verdict, (x, y): (i32, i32)) -> Drawn 
 }
 
 /// A seal: the decision's sign in white on a disc of its colour.
-pub(super) fn seal(page: &Page, decision: Verdict, (x, y): (i32, i32)) -> Drawn {
+pub(crate) fn seal(page: &Page, decision: Verdict, (x, y): (i32, i32)) -> Drawn {
     let white = PAPER.stroke_width(px(3) as u32);
     page.draw(&Circle::new((x, y), px(15), PAPER.filled()))?;
     page.draw(&Circle::new((x, y), px(13), decision.colour().filled()))?;

@@ -1,10 +1,13 @@
-//! How well a template reproduces a surface: Chamfer distance, precision, recall, F-score.
+//! How well a template reproduces a surface: Chamfer distance, precision, recall, F-score; and how well
+//! the order of one list of numbers follows another's.
 //!
 //! Owns the paper's definitions (its supplement, Metrics). Predictions come from the scorer's own
 //! mixture, so that what is measured is what will run.
 
+mod rank;
 mod strict;
 
+pub use rank::rank_correlation;
 pub use strict::{OwnCloud, TrueSurface, WronglyAccepted, own_cloud, wrongly_accepted};
 
 use crate::output::{WriteError, write_whole};

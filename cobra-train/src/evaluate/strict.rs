@@ -261,6 +261,7 @@ mod tests {
             model: Model::chord(Kernel::RationalQuadratic(Exponent::One)),
             components: &components,
             quality: None,
+            depth: None,
         };
         let mut bytes = vec![0; encoded_len(&source)];
         let length = encode(&source, &mut bytes).unwrap();

@@ -6,17 +6,17 @@ use serde_json::Value;
 
 /// A place in a document that does not hold what it should.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Misfit {
+pub(crate) struct Misfit {
     /// Where in the document.
-    pub(super) place: String,
+    pub(crate) place: String,
     /// What should stand there.
-    pub(super) expected: &'static str,
+    pub(crate) expected: &'static str,
     /// What does, cut short.
-    pub(super) found: String,
+    pub(crate) found: String,
 }
 
 impl Misfit {
-    pub(super) fn new(place: impl Into<String>, expected: &'static str, found: &Value) -> Self {
+    pub(crate) fn new(place: impl Into<String>, expected: &'static str, found: &Value) -> Self {
         Self {
             place: place.into(),
             expected,
@@ -31,12 +31,23 @@ impl Misfit {
 }
 
 /// The list of N numbers under `key` of `entry`, each rounded to `f32` once.
-pub(super) fn numbers<const N: usize>(
+pub(crate) fn numbers<const N: usize>(
     place: &str,
     entry: &Value,
     key: &str,
     expected: &'static str,
 ) -> Result<[f32; N], Misfit> {
+    let numbers = exact_numbers(place, entry, key, expected)?;
+    Ok(numbers.map(|number| number as f32))
+}
+
+/// The list of N numbers under `key` of `entry`, in `f64`.
+pub(crate) fn exact_numbers<const N: usize>(
+    place: &str,
+    entry: &Value,
+    key: &str,
+    expected: &'static str,
+) -> Result<[f64; N], Misfit> {
     let value = entry.get(key).unwrap_or(&Value::Null);
     let place = format!("{place}.{key}");
     let list = value
@@ -45,13 +56,14 @@ pub(super) fn numbers<const N: usize>(
         .ok_or_else(|| Misfit::new(&place, expected, value))?;
     let mut numbers = [0.0; N];
     for (index, (number, value)) in numbers.iter_mut().zip(list).enumerate() {
-        *number = to_f32(value)
+        *number = value
+            .as_f64()
             .ok_or_else(|| Misfit::new(format!("{place}[{index}]"), "a number", value))?;
     }
     Ok(numbers)
 }
 
 /// The number, rounded to `f32` once; infinite beyond its range.
-pub(super) fn to_f32(value: &Value) -> Option<f32> {
+pub(crate) fn to_f32(value: &Value) -> Option<f32> {
     value.as_f64().map(|number| number as f32)
 }

@@ -3,7 +3,13 @@
 //! Owns what needs the truth. What judges a pose without it is `cobra-infer`.
 
 mod error;
+mod model_points;
+mod nearest;
 mod simulate;
+mod single;
 
-pub use error::add;
+pub use error::{RIGHT, add, add_s, mspd, mssd};
+pub use model_points::ModelPoints;
+pub use nearest::nearest_pose;
 pub use simulate::{ObservationNoise, disturb, observe};
+pub use single::single_pose;

@@ -1,5 +1,6 @@
 //! Simulated observations and simulated pose errors.
 
+use crate::random::normal;
 use crate::surface::RayCaster;
 use cobra_infer::{Camera, Correspondence};
 use nalgebra::{Isometry3, Point2, Point3, Translation3, UnitQuaternion, UnitVector3, Vector3};
@@ -90,11 +91,4 @@ fn direction(rng: &mut impl Rng) -> UnitVector3<f64> {
             return direction;
         }
     }
-}
-
-/// A standard normal variate by Box and Muller's transform, with `libm` so that every platform
-/// draws the same.
-fn normal(rng: &mut impl Rng) -> f64 {
-    let radius = (-2.0 * libm::log(1.0 - rng.random::<f64>())).sqrt();
-    radius * libm::cos(2.0 * std::f64::consts::PI * rng.random::<f64>())
 }

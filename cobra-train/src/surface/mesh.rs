@@ -109,7 +109,7 @@ impl Mesh {
     }
 
     /// The vertices that some triangle uses, each once, in their order.
-    pub(super) fn used_vertices(&self) -> impl Iterator<Item = &Point3<f64>> + Clone {
+    pub(crate) fn used_vertices(&self) -> impl Iterator<Item = &Point3<f64>> + Clone {
         let mut used = vec![false; self.vertices.len()];
         for &i in self.triangles.iter().flatten() {
             used[i as usize] = true;

@@ -31,7 +31,7 @@ pub use mesh::{Mesh, MeshError};
 pub(crate) use near::NearestPoints;
 pub use normals::with_estimated_normals;
 pub use poisson::{sample_poisson, thin};
-pub use raycast::{Hit, RayCaster};
+pub use raycast::{Hit, Nearest, RayCaster};
 pub use read::{ReadGeometry, ReadMeshError, read_geometry, read_mesh};
 pub use sample::{SampleError, SurfacePoint, sample_visible};
 pub use within::sample_from_within;

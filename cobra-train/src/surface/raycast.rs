@@ -4,7 +4,7 @@
 
 use nalgebra::{Point3, Unit, UnitVector3, Vector3};
 use parry3d_f64::math::Vector;
-use parry3d_f64::query::{PointQuery, Ray, RayCast};
+use parry3d_f64::query::{PointQueryWithLocation, Ray, RayCast};
 use parry3d_f64::shape::TriMesh;
 
 use super::mesh::Mesh;
@@ -26,6 +26,15 @@ pub struct Hit {
     pub normal: UnitVector3<f64>,
     /// The triangle, as an index into [`Mesh::triangles`].
     pub triangle: u32,
+}
+
+/// The point of a mesh that is nearest to another point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// How far it is, in the mesh's unit.
+    pub distance: f64,
+    /// From it to the other point; of a point on the mesh the triangle's normal.
+    pub away: UnitVector3<f64>,
 }
 
 impl RayCaster {
@@ -71,12 +80,31 @@ impl RayCaster {
     /// for a point with a coordinate that is not finite.
     #[must_use]
     pub fn distance(&self, point: &Point3<f64>) -> f64 {
+        self.nearest(point)
+            .map_or(f64::INFINITY, |nearest| nearest.distance)
+    }
+
+    /// The nearest point of the mesh; `None` for a point with a coordinate that is not finite.
+    #[must_use]
+    pub fn nearest(&self, point: &Point3<f64>) -> Option<Nearest> {
         if !point.iter().all(|c| c.is_finite()) {
-            return f64::INFINITY;
+            return None;
         }
-        let point = to_parry(point);
-        let nearest = self.triangles.project_local_point(point, false).point;
-        point.distance(nearest)
+        let (nearest, (triangle, _)) = self
+            .triangles
+            .project_local_point_and_get_location(to_parry(point), false);
+        let found = Point3::new(nearest.point.x, nearest.point.y, nearest.point.z);
+        let offset = point - found;
+        let across = || {
+            let triangle = self.triangles.triangle(triangle);
+            let normal = (triangle.b - triangle.a).cross(triangle.c - triangle.a);
+            Unit::try_new(Vector3::new(normal.x, normal.y, normal.z), 0.0)
+        };
+        let away = Unit::try_new(offset, 0.0).or_else(across)?;
+        Some(Nearest {
+            distance: offset.norm(),
+            away,
+        })
     }
 }
 

@@ -8,8 +8,8 @@ use crate::validity::ValidCells;
 use cobra_infer::gp::compact::GRID;
 use cobra_infer::gp::{Hyperparameters, UnitDirection};
 use cobra_infer::template::{
-    ComponentSource, Precision, QualitySource, TemplateSource, TermsSource, ValiditySource, encode,
-    encoded_len,
+    ComponentSource, DepthRecord, DepthSource, Precision, QualitySource, TemplateSource,
+    TermsSource, ValiditySource, encode, encoded_len,
 };
 use cobra_infer::validity::Pole;
 use cobra_infer::{EncodeError, Kernel};
@@ -255,6 +255,12 @@ impl Frame<'_> {
             model: self.options.fit.model,
             components: &components,
             quality,
+            // Where it is known which surface there is, a pose can be checked against depth.
+            depth: quality.map(|_| DepthSource {
+                noise_share: DepthRecord::NOISE_SHARE,
+                calibration: None,
+                provenance: "",
+            }),
         };
         let mut bytes = vec![0; encoded_len(&source)];
         let length = encode(&source, &mut bytes)?;

@@ -4,7 +4,7 @@
 //! directions in which the component is valid. The fit itself is [`crate::gp::bake`]'s.
 
 use super::assemble::{Frame, ScaledComponent};
-use super::squeeze::{quality_bytes, verify_parts};
+use super::squeeze::{measured_bytes, verify_parts};
 use super::{Deviation, Part, TrainError};
 use crate::gp::{
     Baked, Coordinates, FittedGp, Hyperparameters, Sample, bake, coordinates, covariances,
@@ -152,7 +152,7 @@ fn baked(parts: &[(Part, Choice)], frame: &Frame<'_>) -> Vec<Part> {
 
 fn length(frame: &Frame<'_>, parts: &[Part]) -> Result<usize, TrainError> {
     let scaled: Vec<ScaledComponent> = parts.iter().map(|part| part.scaled.clone()).collect();
-    Ok(frame.provisional(&scaled)?.len() + quality_bytes(parts.len()))
+    Ok(frame.provisional(&scaled)?.len() + measured_bytes(parts.len()))
 }
 
 /// The maps that a component may have, with their squared error over its own points.

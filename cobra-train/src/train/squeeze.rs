@@ -10,6 +10,7 @@ use crate::gp::{Uncompressed, compress};
 use crate::surface::SurfacePoint;
 use crate::validity::{COARSE_CELLS, FINE_CELLS};
 use cobra_infer::Metric;
+use cobra_infer::template::DEPTH_CAPACITY;
 use nalgebra::UnitVector3;
 
 /// Bytes of a term, and of a component's run of them besides.
@@ -46,7 +47,7 @@ const SLACK: usize = 16;
 /// Bytes of an exact term.
 const EXACT_TERM: usize = 16;
 
-/// Compresses the exact `parts` into `budget` bytes, the last section of `quality` bytes included.
+/// Compresses the exact `parts` into `budget` bytes, those included that are written when it is measured.
 /// Where they have validity, it is verified anew. Of charts those of fewest points are left out where
 /// too few terms remain for each; parts that may no longer speak anywhere are left out always.
 pub(super) fn squeeze(
@@ -109,7 +110,7 @@ pub(super) fn squeeze(
             compact = verify_parts(frame, compact, training, cell_width)?;
         }
         let scaled: Vec<ScaledComponent> = compact.iter().map(|p| p.scaled.clone()).collect();
-        let length = frame.provisional(&scaled)?.len() + quality_bytes(compact.len());
+        let length = frame.provisional(&scaled)?.len() + measured_bytes(compact.len());
         if length <= budget {
             return Ok(compact);
         }
@@ -154,12 +155,13 @@ fn fixed_bytes(frame: &Frame<'_>, parts: &[Part]) -> Result<usize, TrainError> {
     let scaled: Vec<ScaledComponent> = parts.iter().map(|part| part.scaled.clone()).collect();
     let exact: usize = scaled.iter().map(ScaledComponent::term_count).sum();
     let whole = frame.provisional(&scaled)?.len();
-    Ok(whole - EXACT_TERM * exact + RUN * parts.len() + quality_bytes(parts.len()) + SLACK)
+    Ok(whole - EXACT_TERM * exact + RUN * parts.len() + measured_bytes(parts.len()) + SLACK)
 }
 
-/// Of the quality section: its header, three numbers, and two bytes a component.
-pub(super) fn quality_bytes(components: usize) -> usize {
-    8 + 3 * 4 + 3 + 2 * components
+/// Of what is written once the rest is measured: the quality section, its header, three numbers and two
+/// bytes a component, and as much as calibration may add later.
+pub(super) fn measured_bytes(components: usize) -> usize {
+    8 + 3 * 4 + 3 + 2 * components + DEPTH_CAPACITY
 }
 
 /// All the points that a component is fitted to, also those that the exact process leaves out.

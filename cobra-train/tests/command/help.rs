@@ -2,7 +2,16 @@
 
 use crate::run::{run, succeed};
 
-const COMMANDS: [&str; 6] = ["demo", "train", "score", "eval", "inspect", "export"];
+const COMMANDS: [&str; 8] = [
+    "demo",
+    "train",
+    "score",
+    "eval",
+    "ambiguity",
+    "calibrate",
+    "inspect",
+    "export",
+];
 
 #[test]
 fn every_commands_help_names_units_and_shows_an_example() {

@@ -1,6 +1,12 @@
 //! The command `cobra`, run as its users run it.
 
+mod ambiguity;
 mod auto;
+mod bop;
+mod bop_problems;
+mod bop_scene;
+mod calibrate;
+mod calibrate_simulated;
 mod camera_input;
 mod demo;
 mod eval;
@@ -12,6 +18,7 @@ mod inspect;
 mod learning;
 mod map;
 mod output;
+mod overlay;
 mod placement;
 mod run;
 mod scene;

@@ -1,5 +1,6 @@
 //! The least that a controller links: load a template, score one pose, decide.
 
+use cobra_infer::depth::DepthError;
 use cobra_infer::{
     Camera, Correspondence, Decision, Pose, Report, ScoreError, Scorer, Settings, Sigma, Template,
     TemplateError,
@@ -15,6 +16,8 @@ pub enum Refusal {
     Template(TemplateError),
     /// The template does not suit the scorer.
     Score(ScoreError),
+    /// The template, the settings or the memory do not suit the check against depth.
+    Depth(DepthError),
 }
 
 /// How the examples score: σ as in the README's example, a tolerance of 2 mm. One function, so that

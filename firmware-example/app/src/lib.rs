@@ -4,10 +4,12 @@
 //! |---|---|
 //! | [`score`] | the example: a template in flash, a stream of correspondences, a watchdog, a report |
 //! | [`footprint`] | the least that a controller links: load and score, nothing printed |
+//! | [`footprint_depth`] | the same of a check against depth |
 //! | [`agreement`] | the recorded vectors, scored here and compared bit by bit |
 //! | [`budget`] | stack and instructions of load and score |
 //! | [`encodings`] | bytes and instructions of a term by how it is written |
 //! | `object` | a template of one's own: instructions a point, and the host's bits; with `semihosting` |
+//! | `object_depth` | the same of checks against a depth image |
 //! | [`stack`] | how deep a call reaches into the stack |
 //! | `console` | standard output through a debugger, with the feature `semihosting` |
 #![no_std]
@@ -18,8 +20,11 @@ pub mod budget;
 pub mod console;
 pub mod encodings;
 pub mod footprint;
+pub mod footprint_depth;
 #[cfg(feature = "semihosting")]
 pub mod object;
+#[cfg(feature = "semihosting")]
+pub mod object_depth;
 pub mod score;
 pub mod stack;
 

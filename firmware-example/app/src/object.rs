@@ -31,6 +31,18 @@ impl Room {
         points: [0; LARGEST],
         expected: [0; LARGEST],
     };
+
+    /// Two files, and the room that is left.
+    pub(crate) fn read_two(
+        &mut self,
+        first: &CStr,
+        second: &CStr,
+        out: &mut impl Write,
+    ) -> Result<(&[u8], &[u8], &mut [u8; LARGEST]), Failed> {
+        let first = read(first, &mut self.template, out)?;
+        let second = read(second, &mut self.points, out)?;
+        Ok((first, second, &mut self.expected))
+    }
 }
 
 /// Measures and prints a line for each noise.
@@ -95,12 +107,12 @@ fn refused(out: &mut impl Write, error: Unreadable) -> Result<(), Failed> {
     failed(out, format_args!("the object cannot be scored: {error:?}"))
 }
 
-fn failed<T>(out: &mut impl Write, text: fmt::Arguments<'_>) -> Result<T, Failed> {
+pub(crate) fn failed<T>(out: &mut impl Write, text: fmt::Arguments<'_>) -> Result<T, Failed> {
     writeln!(out, "{text}")?;
     Err(Failed)
 }
 
-fn read<'r>(
+pub(crate) fn read<'r>(
     name: &CStr,
     room: &'r mut [u8; LARGEST],
     out: &mut impl Write,

@@ -54,6 +54,7 @@ pub fn run(board: &mut impl Board, out: &mut impl Write) -> Result<(), Failed> {
                 match refusal {
                     Refusal::Template(error) => writeln!(out, "{title}: {error}")?,
                     Refusal::Score(error) => writeln!(out, "{title}: {error}")?,
+                    Refusal::Depth(error) => writeln!(out, "{title}: {error}")?,
                 }
                 return Err(Failed);
             }

@@ -30,6 +30,7 @@ pub(crate) async fn run(camera: Camera, mut console: Console) {
         let _ = match refusal {
             Refusal::Template(error) => writeln!(console, "the template is refused: {error}"),
             Refusal::Score(error) => writeln!(console, "{error}"),
+            Refusal::Depth(error) => writeln!(console, "{error}"),
         };
     }
     PROGRESS.signal(Progress::Over {

@@ -12,10 +12,11 @@
 //! | `likelihoods` | one a correspondence of the case before |
 //! | `report` | confidence, threshold, sum of weights, share of inliers, in decimal the points and those behind the camera, and the decision |
 
+use crate::depth;
 use cobra_infer::nalgebra::{Point2, Point3};
 use cobra_infer::{
     Assignment, Camera, Correspondence, Decision, Doubt, Likelihood, Pose, Rejection, Report,
-    Scorer, Settings, Sigma, Template, Threshold,
+    Scorer, Settings, Sigma, Template, TemplateError, Threshold,
 };
 use core::fmt;
 use core::str::SplitAsciiWhitespace;
@@ -34,6 +35,22 @@ pub struct Golden {
     pub vectors: &'static str,
     /// How many cases it holds.
     pub cases: usize,
+    /// The recorded gradients of the template's mean.
+    pub gradients: &'static [u8],
+}
+
+impl Golden {
+    /// How many bits of the gradients differ from those that are recorded.
+    ///
+    /// # Errors
+    /// Where the template does not load.
+    pub fn compare_gradients(&self) -> Result<u32, TemplateError> {
+        let words = |each: &mut dyn FnMut(u32)| {
+            depth::gradients(&Template::from_bytes(self.template)?, each);
+            Ok(())
+        };
+        Ok(depth::compare(self.gradients, words, |_| {})?.mismatched_bits)
+    }
 }
 
 #[cfg(feature = "golden")]
@@ -44,6 +61,7 @@ macro_rules! golden {
             template: include_bytes!(concat!("../../golden/v1-", $template, ".cobra")),
             vectors: include_str!(concat!("../../golden/v1-", $vectors, ".txt")),
             cases: $cases,
+            gradients: include_bytes!(concat!("../../golden/v1-", $template, ".gradients")),
         }
     };
 }
@@ -282,6 +300,9 @@ pub const fn decision_name(decision: Decision) -> &'static str {
         Decision::Undecided(Doubt::NonFiniteInput) => "non-finite-input",
         Decision::Undecided(Doubt::NegativeWeight) => "negative-weight",
         Decision::Undecided(Doubt::NoThreshold) => "no-threshold",
+        Decision::Undecided(Doubt::Hidden) => "hidden",
+        Decision::Undecided(Doubt::NotCalibrated) => "not-calibrated",
+        Decision::Undecided(Doubt::BetweenThresholds) => "between-thresholds",
     }
 }
 

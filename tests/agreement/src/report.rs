@@ -1,5 +1,6 @@
 //! Everything that is compared, as the lines that every target prints.
 
+use crate::depth::{self, Depth};
 use crate::{Set, square_root, vectors};
 use core::fmt::{self, Write};
 
@@ -43,6 +44,10 @@ pub fn write(
                 writeln!(out, "agreement {} {unreadable:?}", set.name)?;
             }
         }
+        alive();
+        if let Some(depth) = &set.depth {
+            agrees &= depth_checks(out, set, depth)?;
+        }
     }
     alive();
     let differ = square_root::differing();
@@ -53,6 +58,36 @@ pub fn write(
         agrees &= golden(out, alive)?;
     }
     Ok(agrees)
+}
+
+fn depth_checks(out: &mut impl Write, set: &Set, depth: &Depth) -> Result<bool, fmt::Error> {
+    let mut told = 0;
+    let mut telling = Ok(());
+    let checked = depth::compare(
+        depth.expected,
+        |each| depth::words(set.template, depth.scene, depth.image, each),
+        |difference| {
+            if told < TOLD {
+                told += 1;
+                telling = telling.and_then(|()| writeln!(out, "{}: {difference}", set.name));
+            }
+        },
+    );
+    telling?;
+    match checked {
+        Ok(checked) => {
+            writeln!(
+                out,
+                "depth {} words={} mismatched_bits={}",
+                set.name, checked.words, checked.mismatched_bits
+            )?;
+            Ok(checked.mismatched_bits == 0)
+        }
+        Err(unreadable) => {
+            writeln!(out, "depth {} {unreadable:?}", set.name)?;
+            Ok(false)
+        }
+    }
 }
 
 #[cfg(feature = "golden")]
@@ -76,5 +111,13 @@ fn golden(out: &mut impl Write, mut alive: impl FnMut()) -> Result<bool, fmt::Er
         "golden vectors of {} templates and settings replayed",
         GOLDEN.len()
     )?;
+    for golden in &GOLDEN {
+        alive();
+        let compared = golden.compare_gradients();
+        if compared != Ok(0) {
+            agrees = false;
+            writeln!(out, "{}: gradients: {compared:?}", golden.name)?;
+        }
+    }
     Ok(agrees)
 }

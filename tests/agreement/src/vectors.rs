@@ -6,6 +6,7 @@
 //! bits of one likelihood a correspondence that the case takes, and then the words of
 //! [`report_words`].
 
+use crate::depth::{self, Depth};
 use cobra_infer::nalgebra::{Point2, Point3};
 use cobra_infer::{
     Assignment, Camera, Correspondence, Decision, Doubt, Likelihood, Pose, Rejection, Report,
@@ -27,15 +28,38 @@ pub struct Set {
     pub points: &'static [u8],
     /// The recorded bits.
     pub expected: &'static [u8],
+    /// Of a template with validity, a scene to check it against.
+    pub depth: Option<Depth>,
 }
 
 macro_rules! set {
     ($name:literal) => {
+        set!($name, None)
+    };
+    ($name:literal, depth) => {
+        set!(
+            $name,
+            Some(Depth {
+                image: {
+                    static IMAGE: depth::Image = depth::image(include_bytes!(concat!(
+                        "../../golden/agreement/",
+                        $name,
+                        ".image"
+                    )));
+                    &IMAGE
+                },
+                scene: include_bytes!(concat!("../../golden/agreement/", $name, ".scene")),
+                expected: include_bytes!(concat!("../../golden/agreement/", $name, ".checked")),
+            })
+        )
+    };
+    ($name:literal, $depth:expr) => {
         Set {
             name: $name,
             template: include_bytes!(concat!("../../golden/agreement/", $name, ".cobra")),
             points: include_bytes!(concat!("../../golden/agreement/", $name, ".points")),
             expected: include_bytes!(concat!("../../golden/agreement/", $name, ".expected")),
+            depth: $depth,
         }
     };
 }
@@ -47,8 +71,8 @@ pub const SETS: [Set; 5] = [
     set!("k-means"),
     set!("em"),
     set!("tiny"),
-    set!("charts"),
-    set!("map"),
+    set!("charts", depth),
+    set!("map", depth),
 ];
 
 /// The set of that name, or all of them by the name `all`. For boards whose flash does not hold all
@@ -138,6 +162,8 @@ pub enum Unreadable {
     Points,
     /// The template does not suit the vectors.
     Score(cobra_infer::ScoreError),
+    /// Nor the check against depth.
+    Depth(cobra_infer::depth::DepthError),
 }
 
 /// A word that is not what is recorded.
@@ -263,7 +289,8 @@ pub fn report_words(report: &Report) -> [u32; 7] {
     ]
 }
 
-const fn decision_number(decision: Decision) -> u32 {
+/// A number for each decision.
+pub(crate) const fn decision_number(decision: Decision) -> u32 {
     match decision {
         Decision::Accept => 0,
         Decision::Reject(Rejection::BelowThreshold) => 1,
@@ -274,10 +301,14 @@ const fn decision_number(decision: Decision) -> u32 {
         Decision::Undecided(Doubt::NonFiniteInput) => 6,
         Decision::Undecided(Doubt::NegativeWeight) => 7,
         Decision::Undecided(Doubt::NoThreshold) => 8,
+        Decision::Undecided(Doubt::Hidden) => 9,
+        Decision::Undecided(Doubt::NotCalibrated) => 10,
+        Decision::Undecided(Doubt::BetweenThresholds) => 11,
     }
 }
 
-type Word = [u8; 4];
+/// Four bytes of a file.
+pub(crate) type Word = [u8; 4];
 
 /// A `.points` file, read where it lies.
 #[derive(Clone, Copy, Debug)]
@@ -360,7 +391,7 @@ impl<'a> Points<'a> {
 }
 
 /// A count, and as many arrays of words.
-fn counted<const N: usize>(words: &[Word]) -> Option<(&[[Word; N]], &[Word])> {
+pub(crate) fn counted<const N: usize>(words: &[Word]) -> Option<(&[[Word; N]], &[Word])> {
     let (count, words) = words.split_first()?;
     let length = usize::try_from(u32::from_le_bytes(*count))
         .ok()?

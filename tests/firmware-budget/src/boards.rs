@@ -19,6 +19,9 @@ pub(crate) struct Row {
     pub(crate) mismatched_bits: u64,
     text_bytes: u64,
     stack_bytes: u64,
+    /// The same of a check against depth.
+    depth_text_bytes: u64,
+    depth_stack_bytes: u64,
     per_point: f64,
     per_component: f64,
     per_precision: f64,
@@ -35,6 +38,8 @@ pub(crate) fn document(row: &Row) -> Value {
         "mismatched_bits": row.mismatched_bits,
         "text_bytes": row.text_bytes,
         "stack_bytes": row.stack_bytes,
+        "depth_text_bytes": row.depth_text_bytes,
+        "depth_stack_bytes": row.depth_stack_bytes,
         "instructions_per_point": tenth(row.per_point),
         "instructions_per_evaluation": tenth(row.per_evaluation[0]),
     })
@@ -45,16 +50,20 @@ pub(crate) fn row(folder: &Path, line: &str) -> Result<Row, Box<dyn Error>> {
     let (target, board) = line.split_once(' ').ok_or("no target and board")?;
     let file = |ending: &str| -> PathBuf { folder.join(format!("{board}-{target}.{ending}")) };
     let (text_bytes, static_bytes) = sizes(&file("elf"))?;
+    let (depth_text_bytes, depth_static_bytes) = sizes(&file("depth.elf"))?;
+    let static_bytes = static_bytes + depth_static_bytes;
     if static_bytes != 0 {
         return Err(format!("{static_bytes} bytes of static RAM").into());
     }
     let agreement = Lines::read(&file("agreement"), "agreement")?;
+    let checks = Lines::read(&file("agreement"), "depth")?;
     let budget = fs::read_to_string(file("budget"))?;
     if !budget.lines().any(|line| line.ends_with("scored=true")) || budget.contains("scored=false")
     {
         return Err("nothing was scored where the stack was measured".into());
     }
     let stack = Lines::read(&file("budget"), "stack")?;
+    let depth_stack = Lines::read(&file("budget"), "depth-stack")?;
     let costs = Lines::read(&file("budget"), "cost")?;
     let cost = |name: &str| -> Result<f64, Box<dyn Error>> {
         let line = costs
@@ -71,9 +80,11 @@ pub(crate) fn row(folder: &Path, line: &str) -> Result<Row, Box<dyn Error>> {
         target: target.into(),
         board: board.into(),
         points: agreement.sum("points")?,
-        mismatched_bits: agreement.sum("mismatched_bits")?,
+        mismatched_bits: agreement.sum("mismatched_bits")? + checks.sum("mismatched_bits")?,
         text_bytes,
         stack_bytes: stack.most("bytes")?,
+        depth_text_bytes,
+        depth_stack_bytes: depth_stack.most("bytes")?,
         per_point: small - 32.0 * per_evaluation - per_component,
         per_component,
         per_precision: per_component + (cost("one-9x32-precisions")? - nine) / 9.0,
@@ -106,19 +117,21 @@ fn sizes(path: &Path) -> Result<(u64, u64), Box<dyn Error>> {
 pub(crate) fn table(rows: &[Row], rustc: &str) -> String {
     let mut text = format!(
         "Built by {rustc}, `opt-level = \"s\"`:\n\n\
-         | target, board | code, bytes | stack, bytes | a point | a component | with precisions \
+         | target, board | code, bytes | stack, bytes | depth: code | stack | a point | a component | with precisions \
          | an evaluation, α = 1 | α = ½ | bits that differ |\n\
-         |---|--:|--:|--:|--:|--:|--:|--:|--:|\n"
+         |---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
     );
     for row in rows {
         let [one, half] = row.per_evaluation;
         writeln!(
             text,
-            "| `{}`, {} | {} | {} | {:.0} | {:.0} | {:.0} | {one:.1} | {half:.1} | {} of {} points |",
+            "| `{}`, {} | {} | {} | {} | {} | {:.0} | {:.0} | {:.0} | {one:.1} | {half:.1} | {} of {} points |",
             row.target,
             row.board,
             row.text_bytes,
             row.stack_bytes,
+            row.depth_text_bytes,
+            row.depth_stack_bytes,
             row.per_point,
             row.per_component,
             row.per_precision,

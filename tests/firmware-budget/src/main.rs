@@ -2,12 +2,13 @@
 //! `docs/BENCHMARKS.md`.
 //!
 //! `firmware-budget FOLDER RUSTC`: FOLDER holds, for each row `TARGET BOARD` of its file `rows`,
-//! `BOARD-TARGET.elf` (the program `footprint`), `.budget` and `.agreement` (what these programs
-//! printed); for each row `NAME ARGUMENT…` of its file `objects`, if there is one, `NAME.object` and
-//! `NAME.json` (what `object` and `cobra eval` printed); and `encodings` (what that program printed).
+//! `BOARD-TARGET.elf` (the program `footprint`), `.depth.elf` (`footprint-depth`), `.budget` and `.agreement` (what these programs
+//! printed); for each row `NAME ARGUMENT…` of its file `objects`, if there is one, `NAME.object`,
+//! `NAME.check` and `NAME.json` (what `object`, `object-depth` and `cobra eval` printed); and `encodings` (what that program printed).
 //! RUSTC is the version that built them. With `--write` the tables are replaced, else compared.
 
 mod boards;
+mod checks;
 mod encodings;
 mod lines;
 mod objects;
@@ -23,6 +24,8 @@ use std::path::Path;
 const BOARDS: &str =
     "<!-- what `tests/run firmware` measured; `tests/run firmware --write` renews it -->\n";
 const OBJECTS: &str = "<!-- objects: what `tests/run firmware` measured; `tests/run firmware --write` renews it -->\n";
+const CHECKS: &str =
+    "<!-- checks: what `tests/run firmware` measured; `tests/run firmware --write` renews it -->\n";
 const ENCODINGS: &str = "<!-- encodings: what `tests/run firmware` measured; `tests/run firmware --write` renews it -->\n";
 
 /// The board that objects and encodings are measured on.
@@ -41,6 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .map(|line| boards::row(folder, line).map_err(|error| format!("{line}: {error}").into()))
         .collect::<Result<Vec<Row>, Box<dyn Error>>>()?;
     let objects = objects::measured(folder)?;
+    let checks = checks::measured(folder)?;
     let encodings = encodings::measured(folder)?;
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     fs::create_dir_all(root.join("target"))?;
@@ -51,6 +55,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             if row.board == M4F {
                 let objects = objects.iter().map(objects::Measured::document);
                 document["objects"] = objects.collect();
+                let checks = checks.iter().map(checks::Measured::document);
+                document["depth_checks"] = checks.collect();
                 let encodings = encodings.iter().map(encodings::Encoding::document);
                 document["encodings"] = encodings.collect();
             }
@@ -67,6 +73,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     for object in &objects {
         object.check()?;
     }
+    for checks in &checks {
+        checks.check()?;
+    }
     let table = boards::table(&rows, rustc);
     let page = root.join("README.md");
     compare_or_write(&page, BOARDS, &table, Near::SameUnlessCompiler, write)?;
@@ -77,7 +86,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Ok(());
     }
     let table = objects::table(&objects, rustc);
-    compare_or_write(&page, OBJECTS, &table, Near::Tenth, write)
+    compare_or_write(&page, OBJECTS, &table, Near::Tenth, write)?;
+    let table = checks::table(&checks, rustc);
+    compare_or_write(&page, CHECKS, &table, Near::Tenth, write)
 }
 
 fn tenth(value: f64) -> f64 {

@@ -19,7 +19,15 @@ pub(crate) fn header() -> Result<String, Box<dyn Error>> {
     // By file, because asking for the crate would run cargo. The order is the header's.
     let mut builder = cbindgen::Builder::new().with_config(config);
     for module in [
-        "status", "layout", "types", "template", "camera", "scorer", "strings",
+        "status",
+        "layout",
+        "types",
+        "depth_types",
+        "template",
+        "camera",
+        "scorer",
+        "depth",
+        "strings",
     ] {
         builder = builder.with_src(interface().join(format!("src/{module}.rs")));
     }

@@ -38,23 +38,47 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<CameraFile, ReadCameraErr
             size: size(keys).map_err(form)?,
         }));
     }
-    let cameras = keys.iter().map(|(image, entry)| {
-        let fields = entry
-            .as_object()
-            .ok_or_else(|| form(Misfit::new(image, "an object with cam_K", entry)))?;
-        let k = numbers::<9>(image, entry, "cam_K", "9 numbers").map_err(form)?;
-        let camera = Camera::from_matrix(k)
-            .and_then(|camera| undistorted(camera, fields))
-            .map_err(|source| no_camera(path, Some(format!("{image}.cam_K")), source))?;
-        let depth_scale = depth_scale(fields, &format!("{image}.")).map_err(form)?;
-        let camera = ImageCamera {
-            camera,
-            depth_scale,
-            size: None,
-        };
-        Ok((image.clone(), camera))
-    });
+    let cameras = keys
+        .iter()
+        .map(|(image, entry)| Ok((image.clone(), image_camera(path, image, entry)?)));
     Ok(CameraFile::PerImage(cameras.collect::<Result<_, _>>()?))
+}
+
+/// The camera of one image: its `entry` in the `scene_camera.json` at `path`.
+///
+/// # Errors
+/// [`ReadCameraError`] names the file, the image and the key.
+pub(crate) fn image_camera(
+    path: &Path,
+    image: &str,
+    entry: &Value,
+) -> Result<ImageCamera, ReadCameraError> {
+    let form = |misfit| ReadCameraError::form(path, misfit);
+    let fields = entry
+        .as_object()
+        .ok_or_else(|| form(Misfit::new(image, "an object with cam_K", entry)))?;
+    if let Some(model) = fields.get("cam_model") {
+        let place = format!("{image}.cam_model");
+        return Err(form(if fields.contains_key("cam_K") {
+            Misfit {
+                place,
+                expected: "a pinhole camera's cam_K alone, lens models are not supported",
+                found: "cam_K and cam_model, of which either could count".to_owned(),
+            }
+        } else {
+            let expected = "a pinhole camera's cam_K instead, lens models are not supported";
+            Misfit::new(place, expected, model)
+        }));
+    }
+    let k = numbers::<9>(image, entry, "cam_K", "9 numbers").map_err(form)?;
+    let camera = Camera::from_matrix(k)
+        .and_then(|camera| undistorted(camera, fields))
+        .map_err(|source| no_camera(path, Some(format!("{image}.cam_K")), source))?;
+    Ok(ImageCamera {
+        camera,
+        depth_scale: depth_scale(fields, &format!("{image}.")).map_err(form)?,
+        size: None,
+    })
 }
 
 /// What other tools call the coefficients of lens distortion; BOP has none.
@@ -118,8 +142,8 @@ fn size(keys: &Map<String, Value>) -> Result<Option<ImageSize>, Misfit> {
         let value = keys.get(key).unwrap_or(&Value::Null);
         let number = value.as_u64().and_then(|number| u32::try_from(number).ok());
         number
-            .filter(|number| *number > 0)
-            .ok_or_else(|| Misfit::new(key, "a whole number of pixels", value))
+            .filter(|number| (1..=ImageSize::LARGEST_SIDE).contains(number))
+            .ok_or_else(|| Misfit::new(key, "a whole number of pixels up to 65535", value))
     };
     Ok(Some(ImageSize {
         width: pixels("width")?,
@@ -211,17 +235,22 @@ mod tests {
             (
                 "480",
                 "0",
-                "height: expected a whole number of pixels, found 0",
+                "height: expected a whole number of pixels up to 65535, found 0",
             ),
             (
                 "480",
                 "4.5",
-                "height: expected a whole number of pixels, found 4.5",
+                "height: expected a whole number of pixels up to 65535, found 4.5",
             ),
             (
                 ", \"width\": 640",
                 "",
-                "width: expected a whole number of pixels, found nothing",
+                "width: expected a whole number of pixels up to 65535, found nothing",
+            ),
+            (
+                "640",
+                "65536",
+                "width: expected a whole number of pixels up to 65535, found 65536",
             ),
             ("\"fx\"", "fx", "not valid JSON"),
         ] {
@@ -251,6 +280,17 @@ mod tests {
                 "[500, ",
                 "[-500, ",
                 "8.cam_K: the camera's fx must be positive",
+            ),
+            (
+                "cam_t_w2c",
+                "cam_model",
+                "3.cam_model: expected a pinhole camera's cam_K alone, lens models are not \
+                 supported, found cam_K and cam_model",
+            ),
+            (
+                "\"cam_K\": [500",
+                "\"cam_model\": [500",
+                "8.cam_model: expected a pinhole camera's cam_K instead, lens models",
             ),
             (
                 "cam_t_w2c",

@@ -6,6 +6,8 @@
 mod bop;
 mod matrix;
 
+pub(crate) use bop::image_camera;
+
 use super::image_id::same_image;
 use super::json::Misfit;
 use super::read_text;
@@ -40,6 +42,32 @@ pub struct ImageSize {
     pub width: u32,
     /// Rows.
     pub height: u32,
+}
+
+impl ImageSize {
+    /// The most columns or rows: a depth pixel's place has 16 bits.
+    pub const LARGEST_SIDE: u32 = 65_535;
+
+    /// Whether neither side is 0 or longer than [`ImageSize::LARGEST_SIDE`].
+    pub(crate) fn is_held(self) -> bool {
+        let sides = [self.width, self.height];
+        sides
+            .iter()
+            .all(|side| (1..=Self::LARGEST_SIDE).contains(side))
+    }
+
+    /// Where a pixel stands in a list of all, row by row from the top left; `None` outside of the
+    /// image.
+    pub(crate) fn index(self, column: u32, row: u32) -> Option<usize> {
+        (column < self.width && row < self.height)
+            .then_some(row as usize * self.width as usize + column as usize)
+    }
+}
+
+impl std::fmt::Display for ImageSize {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} x {} pixels", self.width, self.height)
+    }
 }
 
 impl CameraFile {
