@@ -5,6 +5,7 @@ use crate::bop::symmetry::Axis;
 use crate::demo::mechanical_part;
 use crate::depth::MeshSurface;
 use crate::progress::Silent;
+use cobra_infer::template::DepthRecord;
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::{PI, TAU};
 
@@ -18,8 +19,8 @@ fn options() -> SearchOptions {
 }
 
 fn find(mesh: &Mesh, symmetries: Option<&Symmetries>, options: &SearchOptions) -> Ambiguities {
-    let noise = 0.08 * mesh.diameter();
-    let surface = MeshSurface::new(mesh, noise as f32, 0);
+    let noise = DepthRecord::NOISE_SHARE * mesh.diameter() as f32;
+    let surface = MeshSurface::new(mesh, noise, 0);
     find_ambiguities(mesh, surface, symmetries, options, &Silent).unwrap()
 }
 
