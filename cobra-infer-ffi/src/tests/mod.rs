@@ -7,6 +7,7 @@
 
 mod agreement;
 mod depth;
+mod depth_refusals;
 mod memory;
 mod refusals;
 mod texts;
