@@ -24,13 +24,9 @@ pub struct Correction {
 }
 
 impl Correction {
-    /// How far the object's middle moves.
-    #[must_use]
-    pub fn distance(&self) -> f32 {
-        (self.along_ray * self.along_ray + self.sideways * self.sideways).square_root()
-    }
-
     /// From one pose to another, of an object with this middle.
+    // Inline, so that only who asks for the angle links an arctangent.
+    #[inline]
     #[must_use]
     pub fn between(pose: &Pose, refined: &Pose, [x, y, z]: [f32; 3]) -> Self {
         let middle = Point3::new(x, y, z);
@@ -40,18 +36,20 @@ impl Correction {
         let length = math::dot(ray, ray).square_root();
         let along_ray = finite(math::dot(moved, ray) / length);
         let across = math::dot(moved, moved) - along_ray * along_ray;
-        // ‖R − R′‖² = 8 sin²(θ/2) in the Frobenius norm.
-        let difference = pose.rotation().matrix() - refined.rotation().matrix();
-        let squares = difference
-            .iter()
-            .fold(0.0, |sum, entry| sum + entry * entry);
-        let sine = limited(0.125 * squares);
+        let sine = limited(0.125 * turn_squares(pose, refined));
         Self {
             along_ray,
             sideways: finite(across.square_root()),
             turn: 2.0 * sine.square_root().arctangent((1.0 - sine).square_root()),
         }
     }
+}
+
+/// ‖R − R′‖² = 8 sin²(θ/2) in the Frobenius norm, θ being the angle between the two.
+pub(super) fn turn_squares(pose: &Pose, refined: &Pose) -> f32 {
+    let difference = pose.rotation().matrix() - refined.rotation().matrix();
+    let entries = difference.iter();
+    entries.fold(0.0, |sum, entry| sum + entry * entry)
 }
 
 /// 0 in place of what rounding or the largest numbers make no length of.

@@ -2,7 +2,7 @@
 //!
 //! Owns the order of what is done and which pixels are used; each part has a file of its own.
 
-use super::cause::Correction;
+use super::cause::turn_squares;
 use super::error::DepthError;
 use super::observed::{DepthImage, DepthPixel};
 use super::pulse::Pulse;
@@ -13,7 +13,7 @@ use super::settings::{DepthSettings, positive};
 use super::surface::{Nearby, Surface, TemplateSurface};
 use super::zbuffer::{Cell, Window, ZBuffer};
 use crate::camera::Camera;
-use crate::math::Real;
+use crate::math::{self, Real};
 use crate::pose::Pose;
 use crate::template::Template;
 use crate::trace;
@@ -285,12 +285,15 @@ impl<'s, S: Surface> DepthCheck<'s, S> {
                 count = count.saturating_add(1);
                 let (a, b) = (pose.to_camera(point), refined.to_camera(point));
                 let moved = [a.x - b.x, a.y - b.y, a.z - b.z];
-                sum += crate::math::dot(moved, moved).square_root();
+                sum += math::dot(moved, moved).square_root();
             });
         if count == 0 {
             // So few points are asked for that a small surface may have none: no point moves farther.
-            let moved = Correction::between(pose, refined, self.surface.centre());
-            return moved.distance() + moved.turn * radius;
+            let middle = Point3::from(self.surface.centre());
+            let (a, b) = (pose.to_camera(&middle), refined.to_camera(&middle));
+            let moved = [a.x - b.x, a.y - b.y, a.z - b.z];
+            let turned = (0.5 * turn_squares(pose, refined)).square_root();
+            return math::dot(moved, moved).square_root() + turned * radius;
         }
         sum / count as f32
     }
