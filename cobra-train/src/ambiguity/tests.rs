@@ -46,12 +46,13 @@ fn lathed(profile: &[[f64; 2]]) -> Mesh {
     Mesh::new(vertices, triangles).unwrap()
 }
 
+/// Of which half is neck: no end looks like the other.
 fn bottle() -> Mesh {
     lathed(&[
         [0.0, 0.0],
         [30.0, 0.0],
-        [30.0, 90.0],
-        [10.0, 120.0],
+        [30.0, 60.0],
+        [10.0, 75.0],
         [10.0, 150.0],
         [0.0, 150.0],
     ])
