@@ -1,10 +1,10 @@
 //! Checks of a real object's template against depth on the M4F: what they take, and what they must not exceed.
 
 use crate::lines::{Lines, number};
+use crate::objects;
 use serde_json::{Value, json};
 use std::error::Error;
 use std::fmt::Write;
-use std::fs;
 use std::path::Path;
 
 /// Memory of the caller's: pixels and cells. The image is the sensor's.
@@ -40,16 +40,8 @@ pub(crate) struct Measured {
     instructions: [u64; PARTS.len()],
 }
 
-/// Of each line `NAME ARGUMENT…` of the file `objects`; empty where there is none.
 pub(crate) fn measured(folder: &Path) -> Result<Vec<Measured>, Box<dyn Error>> {
-    let list = folder.join("objects");
-    if !list.exists() {
-        return Ok(Vec::new());
-    }
-    fs::read_to_string(list)?
-        .lines()
-        .map(|line| one(folder, line).map_err(|error| format!("{line}: {error}").into()))
-        .collect()
+    objects::each(folder, one)
 }
 
 /// Of the poses, the one that is off: it is the dearer.

@@ -47,8 +47,15 @@ pub(crate) struct Measured {
     per_point: [f64; 2],
 }
 
-/// Of each line `NAME ARGUMENT…` of the file `objects`; empty where there is none.
 pub(crate) fn measured(folder: &Path) -> Result<Vec<Measured>, Box<dyn Error>> {
+    each(folder, one)
+}
+
+/// What `one` makes of each line `NAME ARGUMENT…` of the file `objects`; nothing where there is none.
+pub(crate) fn each<T>(
+    folder: &Path,
+    one: impl Fn(&Path, &str) -> Result<T, Box<dyn Error>>,
+) -> Result<Vec<T>, Box<dyn Error>> {
     let list = folder.join("objects");
     if !list.exists() {
         return Ok(Vec::new());
