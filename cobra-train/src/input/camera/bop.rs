@@ -143,7 +143,7 @@ fn size(keys: &Map<String, Value>) -> Result<Option<ImageSize>, Misfit> {
         let number = value.as_u64().and_then(|number| u32::try_from(number).ok());
         number
             .filter(|number| (1..=ImageSize::LARGEST_SIDE).contains(number))
-            .ok_or_else(|| Misfit::new(key, "a whole number of pixels up to 65535", value))
+            .ok_or_else(|| Misfit::new(key, "a whole number of pixels up to 16384", value))
     };
     Ok(Some(ImageSize {
         width: pixels("width")?,
@@ -235,22 +235,22 @@ mod tests {
             (
                 "480",
                 "0",
-                "height: expected a whole number of pixels up to 65535, found 0",
+                "height: expected a whole number of pixels up to 16384, found 0",
             ),
             (
                 "480",
                 "4.5",
-                "height: expected a whole number of pixels up to 65535, found 4.5",
+                "height: expected a whole number of pixels up to 16384, found 4.5",
             ),
             (
                 ", \"width\": 640",
                 "",
-                "width: expected a whole number of pixels up to 65535, found nothing",
+                "width: expected a whole number of pixels up to 16384, found nothing",
             ),
             (
                 "640",
-                "65536",
-                "width: expected a whole number of pixels up to 65535, found 65536",
+                "16385",
+                "width: expected a whole number of pixels up to 16384, found 16385",
             ),
             ("\"fx\"", "fx", "not valid JSON"),
         ] {

@@ -45,8 +45,9 @@ pub struct ImageSize {
 }
 
 impl ImageSize {
-    /// The most columns or rows: a depth pixel's place has 16 bits.
-    pub const LARGEST_SIDE: u32 = 65_535;
+    /// The most columns or rows. A depth pixel's place has 16 bits, and would hold more; the depths of such an
+    /// image take a gigabyte, and of larger ones more than a host may have.
+    pub const LARGEST_SIDE: u32 = 16_384;
 
     /// Whether neither side is 0 or longer than [`ImageSize::LARGEST_SIDE`].
     pub(crate) fn is_held(self) -> bool {
