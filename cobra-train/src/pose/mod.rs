@@ -5,11 +5,13 @@
 mod error;
 mod model_points;
 mod nearest;
+mod pnp;
 mod simulate;
 mod single;
 
 pub use error::{RIGHT, add, add_s, mspd, mssd};
 pub use model_points::ModelPoints;
 pub use nearest::nearest_pose;
+pub use pnp::solve_pnp;
 pub use simulate::{ObservationNoise, disturb, observe};
 pub use single::single_pose;
