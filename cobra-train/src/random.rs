@@ -41,6 +41,8 @@ pub enum Purpose {
     Ambiguity,
     /// Scenes of one object, and wrong poses in them.
     SimulatedScenes,
+    /// Noise on the pixels of simulated estimates.
+    SimulatedEstimates,
 }
 
 /// The stream for one purpose and index.

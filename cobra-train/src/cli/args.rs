@@ -9,6 +9,7 @@ use super::choices::{
     UnitArgument, ValidityArgument, WeightsArgument, budget, identifier, not_negative, overlap,
     positive,
 };
+use super::experiment::ExperimentArguments;
 use super::learning::{OptimiserArgument, PriorMeanArgument, SubsetArgument, subset};
 use super::overlay::OverlayArguments;
 use clap::{Args, Parser, Subcommand};
@@ -55,6 +56,8 @@ pub(crate) enum Command {
     Score(ScoreArguments),
     /// Measure how well a template reproduces a mesh or a point cloud
     Eval(EvalArguments),
+    /// Compute the paper's tables and figures anew: CSV, SVG, and its own numbers beside
+    Experiment(ExperimentArguments),
     /// Work with data sets and results files of the BOP benchmark
     Bop(BopArguments),
     /// Find wrong poses that score as well as the true one: symmetries, and what is nearly one

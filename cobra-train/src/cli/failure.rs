@@ -3,6 +3,7 @@
 use cobra_infer::{ScoreError, TemplateError};
 use cobra_train::bop::dataset::DatasetError;
 use cobra_train::bop::results::ReadResultsError;
+use cobra_train::experiment::ExperimentError;
 use cobra_train::input::{
     ReadCameraError, ReadCorrespondencesError, ReadEstimatesError, ReadReportError,
 };
@@ -117,6 +118,12 @@ impl From<ReadReportError> for Failure {
     fn from(error: ReadReportError) -> Self {
         let io = matches!(&error, ReadReportError::Io { source, .. } if !is_content(source));
         classify(io, &error)
+    }
+}
+
+impl From<ExperimentError> for Failure {
+    fn from(error: ExperimentError) -> Self {
+        classify(error.is_io(), &error)
     }
 }
 

@@ -12,6 +12,7 @@ mod coverage;
 mod covered;
 mod demo;
 mod eval;
+mod experiment;
 mod export;
 mod failure;
 mod inspect;
@@ -41,6 +42,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Train(arguments) => train::run(arguments, &terminal),
         Command::Score(arguments) => score::run(arguments, &terminal),
         Command::Eval(arguments) => eval::run(arguments, &terminal),
+        Command::Experiment(arguments) => experiment::run(arguments, &terminal),
         Command::Bop(arguments) => bop::run(arguments, &terminal),
         Command::Ambiguity(arguments) => ambiguity::run(arguments, &terminal),
         Command::Calibrate(arguments) => calibrate::run(arguments, &terminal),

@@ -1,8 +1,7 @@
 //! The curves as SVG.
 //!
-//! Owns the frame that the three share: a plot of shares from 0 to 1 with a heading and a line below it.
-//! The colours are the demonstration's. Text is the viewer's sans-serif, of which no width is known here:
-//! everything is anchored so that none is needed.
+//! Owns the frame that the three share: a plot of shares from 0 to 1 with a heading and a line below it. How
+//! pages look is `plot`'s business.
 
 mod precision_recall;
 mod reliability;
@@ -16,10 +15,11 @@ pub use roc::roc_svg;
 use super::{Rate, Thresholds};
 use crate::demo::Verdict;
 use crate::demo::style::{HAIRLINE, INK, PAPER, QUIET};
-use plotters::coord::Shift;
+pub use crate::plot::PlotError;
+use crate::plot::{Drawn, headed, style};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::{HPos, VPos};
 
 /// Width and height, in pixels.
 const SIZE: (u32, u32) = (760, 620);
@@ -27,14 +27,7 @@ const SIZE: (u32, u32) = (760, 620);
 /// How far the axes reach beyond 0 and 1, so that a curve along an edge can be seen.
 const BEYOND: f64 = 0.02;
 
-/// Why a curve could not be drawn.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot draw: {0}")]
-pub struct PlotError(String);
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 /// What stands around the data.
 struct Frame<'a> {
@@ -57,16 +50,8 @@ impl Frame<'_> {
     }
 
     fn onto(&self, page: &mut String, draw: impl FnOnce(&mut Chart<'_, '_>) -> Drawn) -> Drawn {
-        let page: Area<'_> = SVGBackend::with_string(page, SIZE).into_drawing_area();
-        page.fill(&PAPER)?;
-        let left = |text: &str, y, size, colour| {
-            let style = style(size, colour, HPos::Left, VPos::Center);
-            Text::new(text.to_owned(), (28, y), style)
-        };
-        page.draw(&left(self.title, 30, 22, INK))?;
-        page.draw(&left(self.subtitle, 58, 16, QUIET))?;
+        let (page, plot) = headed(page, SIZE, self.title, self.subtitle)?;
         let (below, above) = self.room;
-        let plot = page.margin(76, 14, 14, 28);
         let mut chart = ChartBuilder::on(&plot)
             .x_label_area_size(56)
             .y_label_area_size(68)
@@ -91,11 +76,6 @@ impl Frame<'_> {
         page.present()?;
         Ok(())
     }
-}
-
-fn style(size: i32, colour: RGBColor, across: HPos, up: VPos) -> TextStyle<'static> {
-    let font = ("sans-serif", size).into_font();
-    font.color(&colour).pos(Pos::new(across, up))
 }
 
 /// The colour of what is accepted, and of curves.

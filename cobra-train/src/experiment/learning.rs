@@ -1,0 +1,264 @@
+//! Adam against L-BFGS-B, and how many points hyperparameters are learned on.
+
+use super::Experiment;
+use super::bench::{Bench, Order};
+use super::error::ExperimentError;
+use super::findings::Findings;
+use super::shape::{COMPONENTS, SIGMA_POINTS};
+use super::subject::Subject;
+use super::table::{Table, mean};
+use super::templates::NAME;
+use crate::evaluate::evaluate;
+use crate::gp::{
+    AdamOptions, Coordinates, FittedGp, NOISE_FLOOR, Optimiser, Subset,
+    negative_log_marginal_likelihood,
+};
+use crate::plot::{Axis, Colour, Item, Look, Mark, Page, Panel};
+use crate::progress::Progress;
+use crate::random::Purpose;
+use crate::surface::{Mesh, RayCaster};
+use crate::train::{TrainOptions, train};
+use cobra_infer::{Assignment, Exponent, Kernel, Template};
+use nalgebra::Point3;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+const POINTS: usize = 30_000;
+
+const ADAM: Optimiser = Optimiser::Adam(AdamOptions::paper());
+
+/// What is compared: an optimiser, and how many points of a component it sees.
+const SETTINGS: [(Optimiser, Subset); 9] = [
+    (Optimiser::Lbfgs, Subset::Points(50)),
+    (Optimiser::Lbfgs, Subset::Points(100)),
+    (Optimiser::Lbfgs, Subset::Points(200)),
+    (Optimiser::Lbfgs, Subset::Points(300)),
+    (Optimiser::Lbfgs, Subset::All),
+    (ADAM, Subset::Points(100)),
+    (ADAM, Subset::Points(200)),
+    (ADAM, Subset::Points(300)),
+    (ADAM, Subset::All),
+];
+
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Row {
+    /// The mean of L/n over components, on all of their points whatever was learned on.
+    likelihood: f64,
+    chamfer: f64,
+    f_score: f64,
+    seconds: f64,
+    iterations: f64,
+}
+
+pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
+    let shown = bench.data.shown();
+    let mesh = shown.mesh()?;
+    let caster = RayCaster::new(&mesh);
+    let points = shown.sample(&mesh, &caster, POINTS, bench.seed, Purpose::Evaluation)?;
+    let journal = bench.journal(Experiment::Learning)?;
+    let rows = bench.rows(
+        &journal,
+        "learning",
+        &SETTINGS,
+        Order::Single,
+        |setting| format!("{} {}", shown.key(), name(setting)),
+        |setting| measure(bench, shown, &mesh, &points, setting),
+    )?;
+    let mut numbers = Table::new(
+        "",
+        &[
+            "optimiser",
+            "points of a component",
+            "L/n on all points",
+            "F %",
+            "chamfer x1000",
+            "seconds",
+            "iterations",
+        ],
+    );
+    let (mut by_likelihood, mut by_f) = (Vec::new(), Vec::new());
+    for (index, row) in &rows {
+        let (optimiser, subset) = SETTINGS[*index];
+        numbers.push(vec![
+            optimiser_name(&optimiser).to_owned(),
+            subset_name(subset),
+            format!("{:.4}", row.likelihood),
+            format!("{:.2}", row.f_score),
+            format!("{:.4}", row.chamfer),
+            format!("{:.2}", row.seconds),
+            format!("{:.0}", row.iterations),
+        ]);
+        let look = if optimiser == ADAM { PAPERS } else { OURS };
+        for (items, value) in [
+            (&mut by_likelihood, row.likelihood),
+            (&mut by_f, row.f_score),
+        ] {
+            let at = (row.seconds, value);
+            items.push(Item::Series(look, vec![at]));
+            items.push(Item::Words(at, subset_name(subset)));
+        }
+    }
+    let times = || rows.iter().map(|(_, row)| row.seconds);
+    let around = |values: Vec<f64>, step: f64| -> Vec<f64> {
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let steps = (low / step).floor() as i64..=(high / step).ceil() as i64;
+        steps.map(|index| index as f64 * step).collect()
+    };
+    let likelihoods = around(rows.iter().map(|(_, row)| row.likelihood).collect(), 0.05);
+    let scores = around(rows.iter().map(|(_, row)| row.f_score).collect(), 0.5);
+    let panel = |heading: &str, up, items| Panel {
+        heading: heading.to_owned(),
+        across: Axis::around("seconds of learning and fitting", times()),
+        up,
+        room: 76,
+        items,
+    };
+    let figure = Page {
+        title: "Adam against L-BFGS-B",
+        subtitle: &format!(
+            "{}, {COMPONENTS} k-means components; beside the marks: points of a component that it learns on",
+            shown.name
+        ),
+        legend: &[
+            (OURS, "L-BFGS-B".to_owned()),
+            (PAPERS, "Adam, the paper's recipe".to_owned()),
+        ],
+        columns: 2,
+        panel: (500, 380),
+    }
+    .svg(&[
+        panel("Likelihood", Axis::linear("L/n on all points (less is better)", &likelihoods, 0.05), by_likelihood),
+        panel("F-score", Axis::linear("F, % (more is better)", &scores, 0.05), by_f),
+    ])?;
+    let mut table = numbers.clone();
+    table.caption =
+        "L/n is the negative log marginal likelihood per point, of all points of a component \
+                     whatever was learned on, mean over components."
+            .to_owned();
+    Ok(Findings {
+        experiment: Experiment::Learning,
+        title: "Learning",
+        protocol: format!(
+            "`{}`, {COMPONENTS} k-means components, the same for all; rational quadratic, α = ½, on the chord, \
+             average prior mean, noise variance at least 1e-5 for both optimisers. L-BFGS-B: at most 60 \
+             iterations. Adam: rate 0.1, times 0.1 after 10 iterations without improvement, 250 iterations. \
+             Weights are always those of all points. Seconds are of all components on this machine's cores.",
+            shown.name
+        ),
+        numbers,
+        tables: vec![table],
+        remarks: Vec::new(),
+        figure,
+        seconds: journal.seconds(),
+    })
+}
+
+const OURS: Look = Look::marks(Colour::Teal, Mark::Disc);
+const PAPERS: Look = Look::marks(Colour::Vermilion, Mark::Triangle);
+
+fn optimiser_name(optimiser: &Optimiser) -> &'static str {
+    match optimiser {
+        Optimiser::Lbfgs => "L-BFGS-B",
+        Optimiser::Adam(_) => "Adam",
+    }
+}
+
+fn subset_name(subset: Subset) -> String {
+    match subset {
+        Subset::Points(count) => count.to_string(),
+        Subset::All => "all".to_owned(),
+    }
+}
+
+fn name((optimiser, subset): &(Optimiser, Subset)) -> String {
+    format!("{} {}", optimiser_name(optimiser), subset_name(*subset))
+}
+
+fn measure(
+    bench: &Bench<'_>,
+    subject: &Subject,
+    mesh: &Mesh,
+    points: &[Point3<f64>],
+    (optimiser, subset): &(Optimiser, Subset),
+) -> Result<Row, ExperimentError> {
+    let mut options = TrainOptions::clustered(NAME, COMPONENTS);
+    options.seed = bench.seed;
+    options.test_points = SIGMA_POINTS;
+    options.fit.model.kernel = Kernel::RationalQuadratic(Exponent::Half);
+    options.fit.optimiser = *optimiser;
+    options.fit.subset = *subset;
+    options.fit.noise_floor = NOISE_FLOOR;
+    let watch = Watch::default();
+    let trained =
+        train(&mesh.clone().into(), &options, &watch).map_err(|source| ExperimentError::Train {
+            object: subject.name.clone(),
+            source,
+        })?;
+    let shape = evaluate(
+        &Template::from_bytes(&trained.bytes)?,
+        Assignment::Nearest,
+        points,
+    )?
+    .shape;
+    let likelihoods: Vec<f64> = trained
+        .components
+        .par_iter()
+        .filter_map(|component| likelihood(&component.fitted))
+        .collect();
+    let iterations = trained
+        .components
+        .iter()
+        .map(|c| c.fitted.learned.iterations as f64);
+    Ok(Row {
+        likelihood: mean(likelihoods),
+        chamfer: shape.chamfer,
+        f_score: shape.f_score,
+        seconds: watch.fitting().as_secs_f64(),
+        iterations: mean(iterations),
+    })
+}
+
+/// L/n of all points of a component.
+fn likelihood(fitted: &FittedGp) -> Option<f64> {
+    let points = Coordinates::new(fitted.model.metric, &fitted.directions);
+    let found = negative_log_marginal_likelihood(
+        fitted.model.kernel,
+        &fitted.learned.hyperparameters,
+        &points,
+        &fitted.targets,
+    );
+    Some(found.ok()?.value / fitted.targets.len() as f64)
+}
+
+/// Times the fitting among the steps of training.
+#[derive(Default)]
+struct Watch(Mutex<(Option<Instant>, Duration)>);
+
+impl Watch {
+    fn fitting(&self) -> Duration {
+        self.0.lock().map(|state| state.1).unwrap_or_default()
+    }
+}
+
+impl Progress for Watch {
+    fn start(&self, name: &str, _: u64) {
+        if let Ok(mut state) = self.0.lock() {
+            state.0 = (name == "fitting components").then(Instant::now);
+        }
+    }
+
+    fn step(&self) {}
+
+    fn warn(&self, _: &str) {}
+
+    fn finish(&self) {
+        if let Ok(mut state) = self.0.lock()
+            && let Some(started) = state.0.take()
+        {
+            state.1 += started.elapsed();
+        }
+    }
+}
