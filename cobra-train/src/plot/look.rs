@@ -2,7 +2,7 @@
 
 use super::{Area, Drawn};
 use crate::demo::Verdict;
-use crate::demo::style::{INK, PAPER, QUIET};
+use crate::demo::style::{INK, PAPER};
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
