@@ -3,7 +3,7 @@
 //! Owns the grid of poses and of noise, which the supplement asks for and does not print. The solver is
 //! `pose`'s.
 
-use crate::pose::{add, solve_pnp};
+use crate::pose::{add, solve_pnp, solve_pnp_in_space};
 use crate::random::{Purpose, normal, stream};
 use cobra_infer::{Camera, Correspondence};
 use nalgebra::{Isometry3, Point2, Point3, UnitQuaternion, Vector3};
@@ -28,6 +28,17 @@ pub struct Protocol {
     pub noise: &'static [(f64, f64)],
     /// Estimates for each of these poses and each of these noises.
     pub repetitions: usize,
+    /// How poses are found.
+    pub solver: PnpSolver,
+}
+
+/// How poses are found from correspondences.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PnpSolver {
+    /// By the least reprojection error ([`solve_pnp`]).
+    Reprojection,
+    /// By the least distances in space ([`solve_pnp_in_space`]).
+    Space,
 }
 
 /// The grid of noise: five outlier shares times five standard deviations, and no outliers.
@@ -52,6 +63,7 @@ impl Protocol {
         inlier_noise: 1.0,
         noise: &NOISE,
         repetitions: 1,
+        solver: PnpSolver::Reprojection,
     };
 }
 
@@ -120,7 +132,11 @@ pub fn simulate_estimates(
                         Some(Correspondence::new(pixel, point.cast::<f32>()))
                     })
                     .collect();
-                let pose = solve_pnp(&camera(), &correspondences)?;
+                let solve = match protocol.solver {
+                    PnpSolver::Reprojection => solve_pnp,
+                    PnpSolver::Space => solve_pnp_in_space,
+                };
+                let pose = solve(&camera(), &correspondences)?;
                 Some(Estimate {
                     outliers,
                     outlier_noise,

@@ -129,7 +129,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
     let names: Vec<String> = KERNELS.iter().map(|(_, name)| (*name).to_owned()).collect();
     let mut tables = Vec::new();
     let mut panels = Vec::new();
-    for (index, group) in groups.iter().enumerate() {
+    for group in &groups {
         let printed = paper::KERNEL_GROUPS
             .iter()
             .position(|name| *name == group.name);
@@ -173,16 +173,11 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         panels.push(Panel {
             heading: group.name.clone(),
             across: Axis::linear("F, %", &[0.0, 20.0, 40.0, 60.0, 80.0, 100.0], 0.02),
-            up: Axis::names("", if index % 2 == 0 { &names } else { &[] }),
-            room: if index % 2 == 0 { 190 } else { 20 },
+            up: Axis::names("", &names),
+            room: 190,
             items,
         });
     }
-    for panel in &mut panels {
-        panel.up = Axis::names("", &names);
-        panel.room = 190;
-    }
-
     let overall = |kernel: usize, form: usize| {
         mean(groups.iter().map(|group| of_group(group, kernel, form).1))
     };

@@ -31,7 +31,7 @@ mod templates;
 pub use bench::Bench;
 pub use document::{Machine, document};
 pub use error::ExperimentError;
-pub use estimates::{Estimate, Protocol, simulate_estimates};
+pub use estimates::{Estimate, PnpSolver, Protocol, simulate_estimates};
 pub use findings::Findings;
 pub use subject::{Data, Subject};
 pub use table::Table;

@@ -207,7 +207,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
             "F-score",
             Axis::linear(
                 "F, % (more is better)",
-                &[60.0, 70.0, 80.0, 90.0, 100.0],
+                &[80.0, 85.0, 90.0, 95.0, 100.0],
                 0.03,
             ),
             by_f,

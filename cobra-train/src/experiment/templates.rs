@@ -21,7 +21,8 @@ pub(super) fn template(
 ) -> Result<Vec<u8>, ExperimentError> {
     let folder = bench.out.join("templates");
     let name = subject.key().replace('/', "-");
-    let path = folder.join(format!("{name}-{}.cobra", bench.seed));
+    let version = env!("CARGO_PKG_VERSION");
+    let path = folder.join(format!("{name}-{version}-{}.cobra", bench.seed));
     if !bench.fresh
         && let Ok(bytes) = std::fs::read(&path)
         && Template::from_bytes(&bytes).is_ok()

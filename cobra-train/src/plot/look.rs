@@ -42,6 +42,7 @@ pub(crate) enum Mark {
     Square,
     Triangle,
     Cross,
+    Plus,
     /// A short upright stroke, for what was printed.
     Stroke,
 }
@@ -118,6 +119,10 @@ impl Look {
             Mark::Cross => {
                 page.draw(&line([(-5, -5), (5, 5)], stroke))?;
                 page.draw(&line([(-5, 5), (5, -5)], stroke))?;
+            }
+            Mark::Plus => {
+                page.draw(&line([(-6, 0), (6, 0)], stroke))?;
+                page.draw(&line([(0, -6), (0, 6)], stroke))?;
             }
             Mark::Stroke => page.draw(&line([(0, -9), (0, 9)], colour.stroke_width(4)))?,
         }

@@ -12,6 +12,6 @@ mod single;
 pub use error::{RIGHT, add, add_s, mspd, mssd};
 pub use model_points::ModelPoints;
 pub use nearest::nearest_pose;
-pub use pnp::solve_pnp;
+pub use pnp::{solve_pnp, solve_pnp_in_space};
 pub use simulate::{ObservationNoise, disturb, observe};
 pub use single::single_pose;

@@ -21,31 +21,17 @@ const ITERATIONS: u64 = 100;
 const NEAREST: f64 = 1e-6;
 
 /// The pose of the least squared reprojection error of `correspondences`: SQPnP, refined by
-/// Levenberg and Marquardt's method, from there and from where it would be seen from afar. An outlier pulls as much as its distance in the image. `None` of fewer than
-/// three correspondences, and where no pose is found.
+/// Levenberg and Marquardt's method, from there and from where it would be seen from afar. An outlier pulls as
+/// much as its distance in the image. `None` of fewer than three correspondences, and where no pose is found.
 ///
-/// SQPnP alone minimises distances from rays in space, which shrink as the object comes nearer to the
-/// camera: with many pixels of noise it finds it far too near.
-///
-/// References: G. Terzakis and M. Lourakis, A Consistently Fast and Globally Optimal Solution to the
-/// Perspective-n-Point Problem, ECCV 2020; J. Moré, The Levenberg-Marquardt algorithm: implementation and
-/// theory, 1978.
+/// Reference: J. Moré, The Levenberg-Marquardt algorithm: implementation and theory, 1978; the other is
+/// [`solve_pnp_in_space`]'s.
 #[must_use]
 pub fn solve_pnp(camera: &Camera, correspondences: &[Correspondence]) -> Option<Isometry3<f64>> {
     let seen = rays(camera, correspondences);
-    let (points, rays): (Vec<_>, Vec<_>) = seen
-        .iter()
-        .map(|Seen { point, ray }| ((point.x, point.y, point.z), (ray.x, ray.y)))
-        .unzip();
-    let (turn, shift) = sqpnp_solve(&points, &rays)?;
-    let first = Isometry3::new(
-        Vector3::new(shift.0, shift.1, shift.2),
-        Vector3::new(turn.0, turn.1, turn.2),
-    );
+    let starts = [sqpnp(&seen), from_afar(&seen)];
     let camera = camera.to_matrix().map(f64::from);
-    let starts = [Some(first), from_afar(&seen)];
     let refined = starts.map(|start| refine(start?, &seen, camera));
-    let finite = |pose: &Isometry3<f64>| pose.to_homogeneous().iter().all(|e| e.is_finite());
     let found = refined
         .into_iter()
         .flatten()
@@ -53,6 +39,37 @@ pub fn solve_pnp(camera: &Camera, correspondences: &[Correspondence]) -> Option<
     found
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, pose)| pose)
+}
+
+/// The pose of the least squared distances of points from the rays of their pixels, by SQPnP. These
+/// shrink as the object comes nearer to the camera: with many pixels of noise it is found far too near. `None` of
+/// fewer than three correspondences, and where no pose is found.
+///
+/// Reference: G. Terzakis and M. Lourakis, A Consistently Fast and Globally Optimal Solution to the
+/// Perspective-n-Point Problem, ECCV 2020.
+#[must_use]
+pub fn solve_pnp_in_space(
+    camera: &Camera,
+    correspondences: &[Correspondence],
+) -> Option<Isometry3<f64>> {
+    sqpnp(&rays(camera, correspondences))
+}
+
+fn sqpnp(seen: &[Seen]) -> Option<Isometry3<f64>> {
+    let (points, rays): (Vec<_>, Vec<_>) = seen
+        .iter()
+        .map(|Seen { point, ray }| ((point.x, point.y, point.z), (ray.x, ray.y)))
+        .unzip();
+    let (turn, shift) = sqpnp_solve(&points, &rays)?;
+    let pose = Isometry3::new(
+        Vector3::new(shift.0, shift.1, shift.2),
+        Vector3::new(turn.0, turn.1, turn.2),
+    );
+    finite(&pose).then_some(pose)
+}
+
+fn finite(pose: &Isometry3<f64>) -> bool {
+    pose.to_homogeneous().iter().all(|entry| entry.is_finite())
 }
 
 fn rays(camera: &Camera, correspondences: &[Correspondence]) -> Vec<Seen> {

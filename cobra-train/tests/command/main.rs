@@ -10,6 +10,7 @@ mod calibrate_simulated;
 mod camera_input;
 mod demo;
 mod eval;
+mod experiment;
 mod export;
 mod export_input;
 mod geometry_input;
