@@ -25,6 +25,9 @@ pub struct Bench<'a> {
     failures: Mutex<Vec<String>>,
 }
 
+/// The rows of objects, and the seconds that they took.
+type OfSubjects<'s, R> = (Vec<(&'s Subject, R)>, f64);
+
 /// Whether units run beside each other.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Order {
@@ -134,7 +137,7 @@ impl<'a> Bench<'a> {
         experiment: Experiment,
         subjects: &[&'s Subject],
         compute: impl Fn(&Subject) -> Result<R, ExperimentError> + Sync,
-    ) -> Result<(Vec<(&'s Subject, R)>, f64), ExperimentError>
+    ) -> Result<OfSubjects<'s, R>, ExperimentError>
     where
         R: Serialize + DeserializeOwned + Send,
     {

@@ -118,7 +118,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         experiment: Experiment::Delta,
         title: "Thresholds over δ",
         protocol: format!(
-            "The estimates of `{}` of [Table 2](#table-2-confidence-and-error), and Eq. 11 with σ_m = {NOISE} \
+            "The estimates of `{}` of [Table 2](correlation.md), and Eq. 11 with σ_m = {NOISE} \
              radii, in the form for the likelihood whose peak is 1.",
             shown.name
         ),

@@ -37,11 +37,14 @@ const OBJECTS: [&str; 4] = [
 /// k-means components for so many input points. Few points leave few to each component.
 const fn components(inputs: usize) -> usize {
     match inputs {
-        ..=500 => 4,
-        ..=2000 => 8,
+        0..=500 => 4,
+        501..=2000 => 8,
         _ => 16,
     }
 }
+
+/// A row of the table: what it is called, and its cells.
+type Kind<'k> = (&'k str, &'k dyn Fn(&Measured) -> String);
 
 /// Mean errors, in a sphere of radius 1.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -94,7 +97,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
                 worst = worst.max(ratio(found));
             }
         }
-        let kinds: [(&str, &dyn Fn(&Measured) -> String); 3] = [
+        let kinds: [Kind<'_>; 3] = [
             ("COBRA", &|found| format!("{:.2}", RADIUS * found.template)),
             ("k-d tree", &|found| format!("{:.2}", RADIUS * found.tree)),
             ("ratio", &|found| format!("{:.2}", ratio(found))),

@@ -117,7 +117,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         experiment: Experiment::Noise,
         title: "Confidence over noise",
         protocol: format!(
-            "Simulated estimates of `{}` as for [Table 2](#table-2-confidence-and-error), at a distance of 4.5 \
+            "Simulated estimates of `{}` as for [Table 2](correlation.md), at a distance of 4.5 \
              radii, for each outlier share and outlier noise {} of them.",
             shown.name,
             judged.len() / 42

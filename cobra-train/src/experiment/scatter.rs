@@ -84,7 +84,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         experiment: Experiment::Scatter,
         title: "Confidence against ADD",
         protocol: format!(
-            "The estimates of `{}` of [Table 2](#table-2-confidence-and-error), one by one.",
+            "The estimates of `{}` of [Table 2](correlation.md), one by one.",
             shown.name
         ),
         numbers,

@@ -63,6 +63,9 @@ struct Row {
     paper: Measured,
 }
 
+/// A configuration: what it is called, its look, its results.
+type Kind = (&'static str, Look, fn(&Row) -> Measured);
+
 pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
     let subjects = bench.data.of_the_paper();
     let (rows, seconds) = bench.of_subjects(Experiment::Shape, &subjects, |subject| {
@@ -120,7 +123,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
             .collect();
         let place = Axis::place(index, classes.len());
         let printed = paper::shape_of(class);
-        let kinds: [(&str, Look, fn(&Row) -> Measured); 2] = [
+        let kinds: [Kind; 2] = [
             ("ours", OURS, |row| row.ours),
             ("the paper's configuration, here", PAPER_HERE, |row| {
                 row.paper
@@ -227,7 +230,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
              `cobra train`, 14,336 bytes. The paper's configuration as far as it says: {COMPONENTS} k-means \
              components that speak everywhere, the nearest for a point, with a ball of 5 % of overlap; rational \
              quadratic with a free exponent on (φ, θ), prior mean 0; 250 steps of Adam, here on \
-             {ADAM_POINTS} points of a component instead of all (what that changes: [learning](#learning)). \
+             {ADAM_POINTS} points of a component instead of all (what that changes: [learning](learning.md)). \
              The objects are not the paper's, but of the same classes."
         ),
         numbers,
