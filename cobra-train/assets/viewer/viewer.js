@@ -11,6 +11,7 @@ import {
   Color,
   DirectionalLight,
   DoubleSide,
+  Group,
   Line,
   LineBasicMaterial,
   Mesh,
@@ -21,6 +22,7 @@ import {
   PointsMaterial,
   Raycaster,
   Scene,
+  ShaderChunk,
   SphereGeometry,
   Spherical,
   SRGBColorSpace,
@@ -42,6 +44,7 @@ function bytes(id) {
 const SILENT_RESIDUAL = -32768;
 const SILENT_COMPONENT = 65535;
 
+const axes = { x: new Vector3(1, 0, 0), y: new Vector3(0, 1, 0), z: new Vector3(0, 0, 1) };
 const start = { azimuth: 0.7, polar: 1.1 };
 const step = Math.PI / 24;
 
@@ -70,26 +73,29 @@ function main() {
   geometry.setAttribute("color", colours);
   if (indices) geometry.setIndex(new BufferAttribute(indices, 1));
   geometry.computeBoundingSphere();
-  const { center: middle, radius } = geometry.boundingSphere;
+  const { radius } = geometry.boundingSphere;
 
   const scene = new Scene();
-  const object = indices
-    ? new Mesh(geometry, new MeshLambertMaterial({ vertexColors: true, flatShading: true, side: DoubleSide }))
-    : new Points(geometry, new PointsMaterial({ vertexColors: true, size: radius / 90 }));
-  scene.add(object);
-  // Mostly ambient, so that a colour stays near its legend's; a light from beside the eye for the shape.
+  const materials = indices
+    ? { blended: surface(false), apart: surface(true) }
+    : { blended: new PointsMaterial({ vertexColors: true, size: radius / 48 }) };
+  const object = indices ? new Mesh(geometry, materials.blended) : new Points(geometry, materials.blended);
+  // Only what is in it is in the object's frame: in the scene y is up, whichever axis is in the object's.
+  const root = new Group();
+  root.add(object);
+  scene.add(root);
+  // Mostly ambient, so that a colour stays near its legend's; a light from beside the eye for the shape. Together
+  // they are π, what is white to them is white.
   scene.add(new AmbientLight(0xffffff, 1.9));
-  const lamp = new DirectionalLight(0xffffff, 1.7);
+  const lamp = new DirectionalLight(0xffffff, 1.24);
   const camera = new PerspectiveCamera(35, 1, radius / 50, radius * 50);
-  camera.up.set(0, 0, 1);
   lamp.position.set(-0.5, 0.6, 1);
   camera.add(lamp);
   scene.add(camera);
 
-  const { references, marker } = marks(about, radius, scene);
+  const { references, marker } = marks(about, radius, root);
 
   const controls = new OrbitControls(camera, canvas);
-  controls.target.copy(middle);
   controls.minDistance = radius / 4;
   controls.maxDistance = radius * 12;
   // The wheel scrolls the page until the view is taken in hand.
@@ -114,18 +120,32 @@ function main() {
   };
   controls.addEventListener("change", draw);
 
-  const distance = () => {
-    const half = Math.atan(Math.tan((camera.fov * Math.PI) / 360) * Math.min(1, camera.aspect));
-    return (1.02 * radius) / Math.sin(half);
+  // From a direction, so far away that all of the object is seen, and not farther.
+  const distance = (theta, phi) => {
+    const back = new Vector3().setFromSphericalCoords(1, phi, theta);
+    const right = new Vector3().crossVectors(camera.up, back).normalize();
+    const above = new Vector3().crossVectors(back, right);
+    const tall = Math.tan((camera.fov * Math.PI) / 360);
+    const place = new Vector3();
+    let far = 0;
+    for (let i = 0; i < positions.length; i += 3) {
+      place.fromArray(positions, i).applyMatrix4(root.matrixWorld).sub(controls.target);
+      const [x, y] = [Math.abs(place.dot(right)) / camera.aspect, Math.abs(place.dot(above))];
+      far = Math.max(far, place.dot(back) + Math.max(x, y) / tall);
+    }
+    // With room to turn it: what is short from here may be long from there.
+    return Math.max(1.12 * far, (0.85 * radius) / Math.sin(Math.atan(tall * Math.min(1, camera.aspect))));
   };
   const look = (spherical) => {
-    camera.position.copy(controls.target).add(turned(spherical));
+    camera.position.setFromSpherical(spherical).add(controls.target);
     controls.update();
     draw();
   };
+  const lookFrom = (theta, phi) => look(new Spherical(distance(theta, phi), phi, theta));
+  const middle = () => root.localToWorld(geometry.boundingSphere.center.clone());
   const reset = () => {
-    controls.target.copy(middle);
-    look(new Spherical(distance(), start.polar, start.azimuth));
+    controls.target.copy(middle());
+    lookFrom(start.azimuth, start.polar);
   };
 
   const fit = () => {
@@ -137,12 +157,20 @@ function main() {
     camera.updateProjectionMatrix();
     draw();
   };
+  const up = element("up");
+  const stand = () => {
+    root.quaternion.setFromUnitVectors(axes[up.value], axes.y);
+    root.updateMatrixWorld();
+    marker.hide();
+    reset();
+  };
   fit();
-  reset();
+  stand();
+  up.addEventListener("change", stand);
   new ResizeObserver(fit).observe(stage);
 
   canvas.addEventListener("keydown", (event) => {
-    const spherical = new Spherical().setFromVector3(upright(camera.position.clone().sub(controls.target)));
+    const spherical = new Spherical().setFromVector3(camera.position.clone().sub(controls.target));
     const moves = {
       ArrowLeft: () => (spherical.theta -= step),
       ArrowRight: () => (spherical.theta += step),
@@ -167,6 +195,8 @@ function main() {
       colours.setXYZ(i, r, g, b);
     }
     colours.needsUpdate = true;
+    // Between two components, or between covered and not, there is nothing.
+    object.material = (view !== "residual" && materials.apart) || materials.blended;
     for (const reference of references) reference.visible = view === "component";
     for (const legend of document.querySelectorAll("[data-legend]")) {
       legend.hidden = legend.dataset.legend !== view;
@@ -196,7 +226,7 @@ function main() {
       marker.hide();
       readout.textContent = about.components[reference.object.userData.component].said;
     } else if (hit) {
-      const vertex = indices ? nearest(hit, positions) : hit.index;
+      const vertex = indices ? nearest(root.worldToLocal(hit.point), hit.face, positions) : hit.index;
       const place = new Vector3().fromArray(positions, 3 * vertex);
       const speaker = speakers[vertex];
       marker.show(place, references[speaker]?.position);
@@ -207,6 +237,19 @@ function main() {
     }
     draw();
   };
+  for (const button of document.querySelectorAll("[data-at]")) {
+    button.hidden = false;
+    button.addEventListener("click", () => {
+      const place = new Vector3().fromArray(button.dataset.at.split(" ").map(Number));
+      choices.find((choice) => choice.value === "coverage").click();
+      controls.target.copy(middle());
+      const outwards = root.localToWorld(place.clone()).sub(controls.target);
+      const towards = new Spherical().setFromVector3(outwards).makeSafe();
+      lookFrom(towards.theta, towards.phi);
+      marker.show(place);
+      stage.scrollIntoView({ block: "center" });
+    });
+  }
   let down = null;
   canvas.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY]));
   canvas.addEventListener("pointerup", (event) => {
@@ -241,15 +284,23 @@ function webgl(canvas) {
   return renderer;
 }
 
+/** The object's faces; `apart`: a triangle has one colour, that of a corner, in the place of a blend of three. */
+function surface(apart) {
+  const material = new MeshLambertMaterial({ vertexColors: true, flatShading: true, side: DoubleSide });
+  if (apart) {
+    material.onBeforeCompile = (shader) => {
+      for (const [stage, chunk] of [["vertexShader", "color_pars_vertex"], ["fragmentShader", "color_pars_fragment"]]) {
+        const flat = ShaderChunk[chunk].replaceAll("varying", "flat varying");
+        shader[stage] = shader[stage].replace(`#include <${chunk}>`, flat);
+      }
+    };
+    material.customProgramCacheKey = () => "apart";
+  }
+  return material;
+}
+
 /** Indices as they came: four bytes each, or two. */
 const widened = (buffer, wide) => (wide ? new Uint32Array(buffer) : new Uint16Array(buffer));
-
-/** From the object's frame, whose z is up, into that of three's spherical coordinates, whose y is; and back. */
-const upright = ({ x, y, z }) => new Vector3(y, z, x);
-function turned(spherical) {
-  const { x, y, z } = new Vector3().setFromSpherical(spherical);
-  return new Vector3(z, x, y);
-}
 
 /** Bytes of the working space, which is linear, from what the page's style sheet would call the colour. */
 function linear(hex) {
@@ -282,9 +333,9 @@ function isCovered(residual, about) {
 }
 
 /** The corner of the triangle that was hit that is nearest to the place. */
-function nearest(hit, positions) {
-  const corners = [hit.face.a, hit.face.b, hit.face.c];
-  const away = (i) => hit.point.distanceToSquared(new Vector3().fromArray(positions, 3 * i));
+function nearest(point, { a, b, c }, positions) {
+  const corners = [a, b, c];
+  const away = (i) => point.distanceToSquared(new Vector3().fromArray(positions, 3 * i));
   return corners.reduce((best, corner) => (away(corner) < away(best) ? corner : best));
 }
 
@@ -307,7 +358,7 @@ function words(about, place, residual, speaker) {
 }
 
 /** The reference points, and a mark for the place that is pointed at. */
-function marks(about, radius, scene) {
+function marks(about, radius, root) {
   const ball = new SphereGeometry(radius / 45, 20, 14);
   const ink = { depthTest: false, transparent: true };
   const references = about.components.map((component, index) => {
@@ -320,7 +371,7 @@ function marks(about, radius, scene) {
     rim.add(inside);
     rim.position.fromArray(component.centre);
     rim.userData.component = inside.userData.component = index;
-    scene.add(rim);
+    root.add(rim);
     return rim;
   });
   const dot = new Mesh(ball, new MeshBasicMaterial({ color: 0x1c2028, ...ink }));
@@ -346,7 +397,7 @@ function marks(about, radius, scene) {
     },
   };
   marker.hide();
-  scene.add(dot, line);
+  root.add(dot, line);
   return { references, marker };
 }
 

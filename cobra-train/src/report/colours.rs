@@ -48,9 +48,10 @@ pub(super) fn ramp() -> Vec<Rgb> {
 pub(super) fn component(index: usize) -> Rgb {
     /// The golden angle, in turns: no number of hues divides the circle badly.
     const TURN: f64 = 0.381_966_011_250_105;
-    const LIGHTNESS: [f64; 3] = [0.66, 0.78, 0.55];
+    // Four, because hues that are 21 apart are neighbours.
+    const LIGHTNESS: [f64; 4] = [0.66, 0.8, 0.54, 0.73];
     let hue = 2.0 * std::f64::consts::PI * (0.53 + TURN * index as f64).fract();
-    oklch(LIGHTNESS[index % 3], 0.125, hue)
+    oklch(LIGHTNESS[index % LIGHTNESS.len()], 0.125, hue)
 }
 
 /// Lightness, chroma and hue to sRGB, cut to what it can show (B. Ottosson, A perceptual color space for

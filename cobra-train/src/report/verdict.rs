@@ -122,12 +122,18 @@ fn ambiguities(data: &ReportData) -> String {
                 .iter()
                 .map(|found| found.add_mm)
                 .fold(0.0, f64::max);
+            let everywhere = report
+                .found
+                .iter()
+                .filter(|found| found.views == report.views);
             format!(
-                "Shape cannot tell the right pose from {} of the object, up to {worst:.1} mm of ADD away.",
+                "{} of wrong poses score as well as the right one, {} of them in every view; up to {worst:.1} mm of \
+                 ADD away.",
                 match report.found.len() {
-                    1 => "another".to_owned(),
-                    count => format!("{count} kinds of others"),
-                }
+                    1 => "One kind".to_owned(),
+                    count => format!("{count} kinds"),
+                },
+                everywhere.count()
             )
         }
     }

@@ -20,7 +20,7 @@ pub(super) fn section(data: &ReportData) -> Markup {
                 Some(calibration) => {
                     @let [found, low, high] = calibration.false_accepts;
                     (table("Thresholds on the confidence against depth",
-                        html! { tr { th scope="col" { "figure" } th scope="col" { "value" } th scope="col" { "of what" } } },
+                        html! { tr { th scope="col" { "figure" } th scope="col" { "value" } th.text scope="col" { "of what" } } },
                         html! {
                             tr { th scope="row" { "accepted" } td { "≥ " (format!("{:.4}", calibration.accept)) } td.text { "the least confidence that is accepted" } }
                             tr { th scope="row" { "rejected" } td { "< " (format!("{:.4}", calibration.reject)) } td.text { "between both the answer is undecided, as with fewer than " (calibration.minimum_points) " pixels" } }
@@ -56,7 +56,7 @@ pub(super) fn ambiguities(data: &ReportData) -> Markup {
                     @if !report.found.is_empty() {
                         @let stated = report.found.iter().any(|found| found.stated.is_some());
                         (table("Motions after which the object scores as well",
-                            html! { tr { th scope="col" { "motion" } th scope="col" { "views" } th scope="col" { "confidence" } th scope="col" { "ADD (mm)" } th scope="col" { "ADD-S (mm)" } th scope="col" { "MSSD (mm)" } @if stated { th scope="col" { "stated" } } } },
+                            html! { tr { th.text scope="col" { "motion" } th scope="col" { "views" } th scope="col" { "confidence" } th scope="col" { "ADD (mm)" } th scope="col" { "ADD-S (mm)" } th scope="col" { "MSSD (mm)" } @if stated { th scope="col" { "stated" } } } },
                             html! { @for found in report.found.iter().take(MOST) { tr {
                                 th.text scope="row" { (found.motion) }
                                 td { (found.views) " of " (report.views) }

@@ -8,7 +8,7 @@ use maud::{Markup, html};
 pub(super) fn section(data: &ReportData) -> Markup {
     let view = &data.view;
     let choices = [
-        ("residual", "Residual in mm", view.measured),
+        ("residual", "Residual", view.measured),
         ("component", "Component", true),
         ("coverage", "Coverage", view.measured),
     ];
@@ -35,9 +35,12 @@ pub(super) fn section(data: &ReportData) -> Markup {
                             }
                         }
                     }
-                    button #reset type="button" { "Reset view" }
                 }
                 div #stage {
+                    div.corner {
+                        label { "up " select #up { @for axis in ["z", "y", "x"] { option { (axis) } } } }
+                        button #reset type="button" { "Reset view" }
+                    }
                     canvas #canvas tabindex="0" role="img" aria-label=(label) {}
                     p.fallback { "The picture that one can turn needs JavaScript and WebGL. Everything else on this page does not." }
                 }
@@ -51,7 +54,7 @@ pub(super) fn section(data: &ReportData) -> Markup {
                 }
                 figcaption {
                     (view.remark)
-                    " Drag, or use the arrow keys, to turn."
+                    span.screen { " Drag, or use the arrow keys, to turn; scroll to come nearer." }
                     @if !view.measured { " Residuals and coverage need " code { "--mesh" } "." }
                 }
             }

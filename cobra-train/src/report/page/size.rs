@@ -73,7 +73,7 @@ pub(super) fn budget(data: &ReportData) -> Markup {
                         th scope="colgroup" colspan="2" { "with depth (bytes)" }
                         @if known {
                             th scope="colgroup" colspan=(1 + usize::from(mean)) { "instructions a point" }
-                            th scope="colgroup" colspan=(2 + usize::from(mean)) { "ms for 500 points" }
+                            th scope="colgroup" colspan=(1 + usize::from(mean)) { "ms for 500 points" }
                         }
                     }
                     tr {
@@ -82,19 +82,17 @@ pub(super) fn budget(data: &ReportData) -> Markup {
                         @if known {
                             @if mean { th scope="col" { "mean" } }
                             th scope="col" { "most" }
-                            th scope="col" { "at a clock of" }
                             @if mean { th scope="col" { "mean" } }
                             th scope="col" { "most" }
                         }
                     }
                 },
                 html! { @for row in &data.budget { @let board = &row.board; tr {
-                    th.target scope="row" { code { (board.target) } br; span.hint { (board.board) } }
+                    th.target scope="row" { code { (board.target) } br; span.hint { (row.processor.0) } }
                     @for bytes in [board.code, board.stack, board.depth_code, board.depth_stack] { td { (grouped(u64::from(bytes))) } }
-                    @if let Some(of) = row.instructions { @let (name, clock) = row.processor;
+                    @if let Some(of) = row.instructions { @let clock = row.processor.1;
                         @if let Some(mean) = of.mean { td { (count(mean)) } }
                         td { (count(of.most)) }
-                        td.text { (name) }
                         @if let Some(mean) = of.mean { td { (milliseconds(mean, clock)) } }
                         td { (milliseconds(of.most, clock)) }
                     }

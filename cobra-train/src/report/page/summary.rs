@@ -44,8 +44,8 @@ fn tiles(data: &ReportData) -> Markup {
     let mut tiles: Vec<(&str, String, String)> = Vec::new();
     if let Some(own) = &data.coverage.own {
         tiles.push((
-            "residual, rms",
-            format!("{} mm", short(own.residual_mm.rms)),
+            "residual, median",
+            format!("{} mm", short(own.residual_mm.median)),
             format!("95 % within {} mm", short(own.residual_mm.p95)),
         ));
         tiles.push((
@@ -185,7 +185,7 @@ fn figures(data: &ReportData, own: &super::super::Own) -> Markup {
     ));
     table(
         "Measured on the object, as cobra eval does",
-        html! { tr { th scope="col" { "figure" } th scope="col" { "value" } th scope="col" { "of what" } } },
+        html! { tr { th scope="col" { "figure" } th scope="col" { "value" } th.text scope="col" { "of what" } } },
         html! { @for (name, value, of) in &rows { tr { th scope="row" { (name) } td { (value) } td.text { (of) } } } },
     )
 }

@@ -4,8 +4,11 @@ use crate::surface::Mesh;
 use nalgebra::{Point3, center, distance};
 use std::collections::HashMap;
 
-/// The mesh with edges longer than `longest` halved, and those of the halves, as long as there are at most `most`
-/// triangles. An edge is halved for both triangles that share it, so that no gap opens.
+/// How many times `longest` the edges are that are halved first.
+const FIRST: i32 = 64;
+
+/// The mesh with edges longer than `longest` halved, and those of the halves, the longest first, as long as there
+/// are at most `most` triangles. An edge is halved for both triangles that share it, so that no gap opens.
 pub(super) fn densified(
     mesh: &Mesh,
     longest: f64,
@@ -13,36 +16,52 @@ pub(super) fn densified(
 ) -> (Vec<Point3<f64>>, Vec<[u32; 3]>) {
     let mut vertices = mesh.vertices().to_vec();
     let mut triangles = mesh.triangles().to_vec();
-    loop {
-        let long = |vertices: &[Point3<f64>], a: u32, b: u32| {
-            distance(&vertices[a as usize], &vertices[b as usize]) > longest
-        };
-        let edges = |[a, b, c]: [u32; 3]| [(a, b), (b, c), (c, a)];
-        let halves: usize = triangles
-            .iter()
-            .flat_map(|triangle| edges(*triangle))
-            .filter(|(a, b)| long(&vertices, *a, *b))
-            .count();
-        // Each edge that is halved makes one triangle more of each that has it.
-        if halves == 0 || triangles.len() + halves > most {
-            return (vertices, triangles);
+    let mut times = FIRST;
+    while times > 0 {
+        match halved(&mut vertices, &triangles, f64::from(times) * longest, most) {
+            Some(finer) => triangles = finer,
+            None => times /= 2,
         }
-        let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
-        let mut finer = Vec::with_capacity(triangles.len() + halves);
-        for triangle in &triangles {
-            let split = edges(*triangle).map(|(a, b)| {
-                long(&vertices, a, b).then(|| {
-                    *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
-                        let middle = center(&vertices[a as usize], &vertices[b as usize]);
-                        vertices.push(middle);
-                        (vertices.len() - 1) as u32
-                    })
-                })
-            });
-            halve(*triangle, split, &vertices, &mut finer);
-        }
-        triangles = finer;
     }
+    (vertices, triangles)
+}
+
+/// The triangles with edges longer than `longest` halved, whose middles are then among the vertices; `None` where
+/// there is none or there would be more than `most` triangles.
+fn halved(
+    vertices: &mut Vec<Point3<f64>>,
+    triangles: &[[u32; 3]],
+    longest: f64,
+    most: usize,
+) -> Option<Vec<[u32; 3]>> {
+    let edges = |[a, b, c]: [u32; 3]| [(a, b), (b, c), (c, a)];
+    let long = |vertices: &[Point3<f64>], (a, b): (u32, u32)| {
+        distance(&vertices[a as usize], &vertices[b as usize]) > longest
+    };
+    // Each edge that is halved makes one triangle more of each that has it.
+    let more = triangles
+        .iter()
+        .flat_map(|triangle| edges(*triangle))
+        .filter(|edge| long(vertices, *edge))
+        .count();
+    if more == 0 || triangles.len() + more > most {
+        return None;
+    }
+    let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
+    let mut finer = Vec::with_capacity(triangles.len() + more);
+    for triangle in triangles {
+        let split = edges(*triangle).map(|(a, b)| {
+            long(vertices, (a, b)).then(|| {
+                *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                    let middle = center(&vertices[a as usize], &vertices[b as usize]);
+                    vertices.push(middle);
+                    (vertices.len() - 1) as u32
+                })
+            })
+        });
+        halve(*triangle, split, vertices, &mut finer);
+    }
+    Some(finer)
 }
 
 /// The parts of a triangle of which some edges (a b, b c, c a) have a corner in their middle.

@@ -9,7 +9,7 @@ mod own;
 
 use super::colours;
 use super::content::Content;
-use crate::digits::short;
+use crate::digits::{grouped, short};
 use crate::evaluate::{TAU, residuals};
 use crate::surface::{Geometry, Mesh};
 use base64::Engine;
@@ -19,7 +19,7 @@ use nalgebra::Point3;
 use serde::Serialize;
 
 /// Most triangles on a page: some 2 MB of it.
-const MOST_TRIANGLES: usize = 110_000;
+const MOST_TRIANGLES: usize = 130_000;
 
 /// Most places where there are no triangles.
 const MOST_POINTS: usize = 60_000;
@@ -249,8 +249,8 @@ fn of_object(
             let positions = thinned(cloud.points().to_vec());
             let remark = format!(
                 "{} of the cloud's {} points.",
-                positions.len(),
-                cloud.points().len()
+                grouped(positions.len() as u64),
+                grouped(cloud.points().len() as u64)
             );
             (positions, Vec::new(), remark)
         }
@@ -280,9 +280,10 @@ fn of_mesh(mesh: &Mesh, diameter: f64, unit: &str) -> Surface {
     if given > MOST_TRIANGLES {
         let merged = merge::merged(mesh, diameter, MOST_TRIANGLES);
         let remark = format!(
-            "{} triangles in the place of the mesh's {given}: vertices nearer than {} {unit} to one another \
+            "{} triangles in the place of the mesh's {}: vertices nearer than {} {unit} to one another \
              are one of them.",
-            merged.triangles.len(),
+            grouped(merged.triangles.len() as u64),
+            grouped(given as u64),
             short(merged.cell)
         );
         return (merged.vertices, merged.triangles, remark);
@@ -290,10 +291,12 @@ fn of_mesh(mesh: &Mesh, diameter: f64, unit: &str) -> Surface {
     let (vertices, triangles) = densify::densified(mesh, LONGEST_EDGE * diameter, MOST_TRIANGLES);
     let remark = if triangles.len() > given {
         format!(
-            "The mesh's {given} triangles, long edges halved so that no two places are far apart."
+            "The mesh's {} triangles, long edges halved: {} places.",
+            grouped(given as u64),
+            grouped(vertices.len() as u64)
         )
     } else {
-        format!("The mesh's {given} triangles.")
+        format!("The mesh's {} triangles.", grouped(given as u64))
     };
     (vertices, triangles, remark)
 }
@@ -307,7 +310,7 @@ fn of_template(template: &Template<'_>, content: &Content) -> Places {
     Places {
         remark: format!(
             "{} points that the template's {} components predict{}.",
-            positions.len(),
+            grouped(positions.len() as u64),
             content.components.len(),
             if content.validity {
                 " where they may speak"
