@@ -1,4 +1,5 @@
-// Makes viewer.min.js, which the command embeds: `npm ci && npm run build`. Same sources, same bytes.
+// Makes viewer.min.js, which the command embeds, or another file: `node build.mjs [FILE]`. Same sources, same
+// bytes.
 
 import { build } from "esbuild";
 import { readFileSync, writeFileSync } from "node:fs";
@@ -19,4 +20,4 @@ const notice = `/*!\nContains three.js ${version}, https://threejs.org\n\n${lice
 const script = result.outputFiles[0].text;
 // It becomes the content of an element of a page, which this would end.
 if (/<\/script|<!--/i.test(script)) throw new Error("the script would end its element");
-writeFileSync("viewer.min.js", notice + script);
+writeFileSync(process.argv[2] ?? "viewer.min.js", notice + script);

@@ -78,7 +78,7 @@ function main() {
   const scene = new Scene();
   const materials = indices
     ? { blended: surface(false), apart: surface(true) }
-    : { blended: new PointsMaterial({ vertexColors: true, size: radius / 48 }) };
+    : { blended: discs(radius * Math.min(5 / Math.sqrt(speakers.length), 1 / 28)) };
   const object = indices ? new Mesh(geometry, materials.blended) : new Points(geometry, materials.blended);
   // Only what is in it is in the object's frame: in the scene y is up, whichever axis is in the object's.
   const root = new Group();
@@ -296,6 +296,17 @@ function surface(apart) {
     };
     material.customProgramCacheKey = () => "apart";
   }
+  return material;
+}
+
+/** Points as discs of a width in the object's unit, so large that few of them make a surface too. */
+function discs(size) {
+  const material = new PointsMaterial({ vertexColors: true, size });
+  material.onBeforeCompile = (shader) => {
+    const chunk = "#include <clipping_planes_fragment>";
+    const round = "if (distance(gl_PointCoord, vec2(0.5)) > 0.5) discard;";
+    shader.fragmentShader = shader.fragmentShader.replace(chunk, `${chunk}\n${round}`);
+  };
   return material;
 }
 

@@ -22,8 +22,8 @@ pub(super) const SILENT: Rgb = [84, 88, 96];
 /// Residuals from 0 to τ.
 pub(super) fn ramp() -> Vec<Rgb> {
     let stops = [
-        [240, 243, 241],
-        [160, 212, 204],
+        [226, 235, 230],
+        [150, 206, 197],
         bytes(Verdict::Accept.colour()),
         [16, 74, 104],
         [34, 28, 74],

@@ -19,9 +19,9 @@ mod view;
 pub use ambiguity::{
     AmbiguityReport, ReadAmbiguityError, ReportedAmbiguity, read_ambiguity_report,
 };
-pub use budget::{Board, BoardBudget, boards};
+pub use budget::{Board, BoardBudget, Instructions, boards, compiler};
 pub use content::{Bytes, ComponentData, Content};
-pub use coverage::{Coverage, Own};
+pub use coverage::{Coverage, Own, Region};
 pub use curves::{CURVES, Curve, ReadCurvesError, read_curves};
 pub use page::html;
 pub use view::View;

@@ -18,6 +18,8 @@ pub(super) fn verdict(data: &ReportData) -> Verdict {
     let coverage = &data.coverage;
     let tau = short(coverage.tau_mm);
     let headline = match coverage.covered {
+        // What was asked were points: another one may be open.
+        Some(100.0) => format!("Covers the surface to within {tau} mm wherever it was measured."),
         Some(covered) => format!(
             "Covers {} of the surface to within {tau} mm.",
             share(covered)

@@ -2,13 +2,14 @@
 
 use crate::run::{run, succeed};
 
-const COMMANDS: [&str; 8] = [
+const COMMANDS: [&str; 9] = [
     "demo",
     "train",
     "score",
     "eval",
     "ambiguity",
     "calibrate",
+    "report",
     "inspect",
     "export",
 ];
