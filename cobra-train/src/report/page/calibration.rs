@@ -31,7 +31,7 @@ pub(super) fn section(data: &ReportData) -> Markup {
                         p.hint { "Simulated estimates have the errors that somebody chose; another estimator makes others." }
                     }
                     @if data.curves.is_empty() {
-                        p.hint { "Its curves are shown where the folder that " code { "cobra calibrate --curves DIR" } " wrote is given with " code { "--curves DIR" } "." }
+                        p.hint { "Its curves are shown where the folder that " code { "cobra calibrate --curves DIR" } " wrote is given with " code.option { "--curves DIR" } "." }
                     } @else {
                         div.curves { @for curve in &data.curves {
                             figure { img src=(curve.address) alt=(curve.title); figcaption { (curve.title) "." } }
@@ -51,7 +51,7 @@ pub(super) fn ambiguities(data: &ReportData) -> Markup {
         section aria-labelledby="ambiguities" {
             h2 #ambiguities { "Poses that look alike" }
             @match &data.ambiguities {
-                None => p.hint { "Wrong poses that score as well as the right one are found by " code { "cobra ambiguity FILE.cobra --mesh MESH --json FILE.json" } "; given with " code { "--ambiguity FILE.json" } ", this page shows them." },
+                None => p.hint { "Wrong poses that score as well as the right one are found by " code { "cobra ambiguity FILE.cobra --mesh MESH --json FILE.json" } "; given with " code.option { "--ambiguity FILE.json" } ", this page shows them." },
                 Some(report) => {
                     @if !report.found.is_empty() {
                         @let stated = report.found.iter().any(|found| found.stated.is_some());

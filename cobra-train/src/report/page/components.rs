@@ -24,7 +24,7 @@ pub(super) fn section(data: &ReportData) -> Markup {
             p {
                 "σ̂ is the rms residual of a component on points that training did not see: how well it knows its "
                 "part of the surface. It does not know your camera; scoring adds that with "
-                code { "--noise" } "."
+                code.option { "--noise" } "."
             }
             (table(&caption,
                 html! { tr {

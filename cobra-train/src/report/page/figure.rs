@@ -55,7 +55,7 @@ pub(super) fn section(data: &ReportData) -> Markup {
                 figcaption {
                     (view.remark)
                     span.screen { " Drag, or use the arrow keys, to turn; scroll to come nearer." }
-                    @if !view.measured { " Residuals and coverage need " code { "--mesh" } "." }
+                    @if !view.measured { " Residuals and coverage need " code.option { "--mesh" } "." }
                 }
             }
         }

@@ -99,7 +99,7 @@ pub(super) fn coverage(data: &ReportData) -> Markup {
                 "accepted with. Scoring takes a point without a covering component for improbable."
             }
             @match &data.coverage.own {
-                None => p.hint { "Given " code { "--mesh" } ", this page measures coverage on fresh points of the surface, and shows where it is missing." },
+                None => p.hint { "Given " code.option { "--mesh" } ", this page measures coverage on fresh points of the surface, and shows where it is missing." },
                 Some(own) => {
                     @if own.regions.is_empty() {
                         p { "No place of a thousandth of the surface or more is left uncovered"

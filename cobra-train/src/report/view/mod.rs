@@ -36,7 +36,7 @@ const SILENT_RESIDUAL: i16 = i16::MIN;
 /// For a component: none speaks.
 const SILENT_COMPONENT: u16 = u16::MAX;
 
-/// The picture's data. Names are those that the viewer reads; what is behind [`Buffers`] goes onto the page apart.
+/// The picture's data. Names are those that the viewer reads; the numbers of places go onto the page apart, as bytes.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct View {
