@@ -8,7 +8,7 @@ const browser = await chromium.launch({
   executablePath,
   args: ["--no-sandbox", "--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
 });
-const context = await browser.newContext({ viewport: { width: 1040, height: 1140 }, colorScheme: "light" });
+const context = await browser.newContext({ viewport: { width: 1000, height: 1270 }, colorScheme: "light" });
 const page = await context.newPage();
 await page.goto(pathToFileURL(path).href);
 await page.waitForSelector('#stage[data-state="ready"]');

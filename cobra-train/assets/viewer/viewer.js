@@ -136,6 +136,17 @@ function main() {
     // With room to turn it: what is short from here may be long from there.
     return Math.max(1.12 * far, (0.85 * radius) / Math.sin(Math.atan(tall * Math.min(1, camera.aspect))));
   };
+  const width = (theta) => {
+    const right = new Vector3(Math.cos(theta), 0, -Math.sin(theta));
+    const place = new Vector3();
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = 0; i < positions.length; i += 3) {
+      const across = place.fromArray(positions, i).applyMatrix4(root.matrixWorld).dot(right);
+      low = Math.min(low, across);
+      high = Math.max(high, across);
+    }
+    return high - low;
+  };
   const look = (spherical) => {
     camera.position.setFromSpherical(spherical).add(controls.target);
     controls.update();
@@ -145,7 +156,9 @@ function main() {
   const middle = () => root.localToWorld(geometry.boundingSphere.center.clone());
   const reset = () => {
     controls.target.copy(middle());
-    lookFrom(start.azimuth, start.polar);
+    // Of two sides the one that shows more.
+    const sides = [start.azimuth, start.azimuth + Math.PI / 2];
+    lookFrom(width(sides[1]) > width(sides[0]) ? sides[1] : sides[0], start.polar);
   };
 
   const fit = () => {
