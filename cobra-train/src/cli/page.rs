@@ -83,12 +83,15 @@ fn check_outputs(arguments: &ReportArguments, output: Option<&Path>) -> Result<(
     outputs::check(&inputs, &outputs)
 }
 
-/// The object, which must be the template's, and points of it that training did not see.
+/// An object, and points of it that training did not see.
+type Object = (Geometry, Vec<Point3<f64>>);
+
+/// The object, which must be the template's.
 fn object(
     arguments: &ReportArguments,
     template: &Template<'_>,
     terminal: &Terminal,
-) -> Result<Option<(Geometry, Vec<Point3<f64>>)>, Failure> {
+) -> Result<Option<Object>, Failure> {
     let Some(path) = &arguments.mesh else {
         return Ok(None);
     };

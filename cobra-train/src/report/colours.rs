@@ -34,7 +34,7 @@ pub(super) fn ramp() -> Vec<Rgb> {
         .flat_map(|pair| {
             (0..STEPS).map(|step| {
                 std::array::from_fn(|c| {
-                    let [from, to] = [pair[0][c], pair[1][c]].map(|byte| f64::from(byte));
+                    let [from, to] = [pair[0][c], pair[1][c]].map(f64::from);
                     (from + (to - from) * step as f64 / STEPS as f64).round() as u8
                 })
             })

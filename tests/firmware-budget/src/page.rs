@@ -105,3 +105,43 @@ fn within_a_tenth(written: &str, measured: &str, between: char) -> bool {
                 _ => a == b,
             })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Near, agree};
+
+    fn csv(compiler: &str, code: u32) -> String {
+        format!("# {compiler}\ntarget,code\nthumbv6m,{code}\n")
+    }
+
+    #[test]
+    fn a_csv_is_exact_of_its_own_compiler_and_near_of_another() {
+        let written = csv("rustc 1.95.0", 1000);
+        let agrees = |compiler, code| {
+            let measured = csv(compiler, code);
+            agree(
+                "boards.csv",
+                &written,
+                &measured,
+                Near::SameUnlessCompiler,
+                ',',
+            )
+            .is_ok()
+        };
+        assert!(agrees("rustc 1.95.0", 1000));
+        assert!(!agrees("rustc 1.95.0", 1001));
+        assert!(agrees("rustc 1.96.0", 1090));
+        assert!(!agrees("rustc 1.96.0", 1110));
+        let more = written.clone() + "thumbv7m,900\n";
+        assert!(
+            agree(
+                "boards.csv",
+                &more,
+                &csv("rustc 1.96.0", 1000),
+                Near::Tenth,
+                ','
+            )
+            .is_err()
+        );
+    }
+}
