@@ -7,7 +7,8 @@
 //! [`simulation`], and [`ambiguity`] the poses that no threshold tells apart. [`export`] makes source text
 //! of a template. [`input`] reads cameras, poses and correspondences, [`pose`] simulates them, [`bop`] reads
 //! data sets and results of the BOP benchmark and scores them against depth, [`overlay`] draws estimates
-//! over the image that they are of, [`demo`] shows the whole. The command `cobra` is a thin layer over this
+//! over the image that they are of, [`mod@report`] makes a page that says whether a template can be trusted,
+//! [`demo`] shows the whole. The command `cobra` is a thin layer over this
 //! library.
 //!
 //! # Example
@@ -33,6 +34,7 @@ pub mod coverage;
 pub mod demo;
 pub mod depth;
 pub mod depth_image;
+pub mod digits;
 pub mod evaluate;
 pub mod experiment;
 pub mod export;
@@ -46,6 +48,7 @@ pub mod pose;
 pub mod progress;
 pub mod random;
 pub mod reference;
+pub mod report;
 pub mod simulation;
 pub mod surface;
 pub mod train;

@@ -12,6 +12,7 @@ use super::choices::{
 use super::experiment::ExperimentArguments;
 use super::learning::{OptimiserArgument, PriorMeanArgument, SubsetArgument, subset};
 use super::overlay::OverlayArguments;
+use super::page::ReportArguments;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use cobra_train::export::Identifier;
@@ -66,6 +67,8 @@ pub(crate) enum Command {
     Calibrate(CalibrateArguments),
     /// Draw estimated poses over their image: residuals, box, decision and reason, as a PNG
     Overlay(OverlayArguments),
+    /// Make a page that says whether a template can be trusted: 3-D view, coverage, cost
+    Report(ReportArguments),
     /// Show what is in a template, its size and its cost
     Inspect(InspectArguments),
     /// Write a template as a file, as Rust or as C, for firmware that keeps it in flash

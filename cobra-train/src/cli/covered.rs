@@ -2,6 +2,7 @@
 
 use super::report::plural;
 use cobra_infer::Template;
+use cobra_train::digits::short;
 use cobra_train::evaluate::TAU;
 use cobra_train::train::{Deviation, Trained, UncoveredRegion};
 use serde::Serialize;
@@ -91,25 +92,4 @@ pub(super) fn text(trained: &Trained, template: &Template<'_>) -> String {
         ));
     }
     lines.join("\n")
-}
-
-/// Three digits, whatever the unit.
-fn short(length: f64) -> String {
-    if length == 0.0 {
-        return "0".to_owned();
-    }
-    let magnitude = length.abs().log10().floor();
-    let decimals = (2.0 - magnitude).clamp(0.0, 9.0) as usize;
-    format!("{length:.decimals$}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::short;
-
-    #[test]
-    fn lengths_have_three_digits_in_any_unit() {
-        let found = [132.99, 1.3299, 0.001_329_9, -7.5, 0.0].map(short);
-        assert_eq!(found, ["133", "1.33", "0.00133", "-7.50", "0"]);
-    }
 }

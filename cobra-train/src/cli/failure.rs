@@ -9,6 +9,7 @@ use cobra_train::input::{
 };
 use cobra_train::output::WriteError;
 use cobra_train::reference::ReadReferencePointsError;
+use cobra_train::report::{ReadAmbiguityError, ReadCurvesError};
 use cobra_train::surface::ReadMeshError;
 use cobra_train::train::TrainError;
 use std::path::Path;
@@ -80,6 +81,18 @@ impl From<ReadResultsError> for Failure {
 
 impl From<ReadMeshError> for Failure {
     fn from(error: ReadMeshError) -> Self {
+        classify(error.is_io(), &error)
+    }
+}
+
+impl From<ReadAmbiguityError> for Failure {
+    fn from(error: ReadAmbiguityError) -> Self {
+        classify(error.is_io(), &error)
+    }
+}
+
+impl From<ReadCurvesError> for Failure {
+    fn from(error: ReadCurvesError) -> Self {
         classify(error.is_io(), &error)
     }
 }

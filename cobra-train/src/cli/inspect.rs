@@ -8,9 +8,10 @@ use super::outputs;
 use super::report::{JsonTarget, table};
 use super::template_file;
 use super::terminal::Terminal;
-use cobra_infer::template::{Quality, RECORD_LENGTH, VERSION};
+use cobra_infer::template::{Quality, VERSION};
 use cobra_infer::{Assignment, Template};
 use cobra_train::export::{counted, elements, features};
+use cobra_train::report::Bytes;
 use depth::DepthDocument;
 use serde::Serialize;
 
@@ -65,15 +66,6 @@ struct Document {
 }
 
 #[derive(Serialize)]
-struct Bytes {
-    total: usize,
-    terms: usize,
-    components: usize,
-    validity: usize,
-    other: usize,
-}
-
-#[derive(Serialize)]
 struct QualityDocument {
     /// Percent of the points that some component explains.
     covered: f32,
@@ -108,9 +100,6 @@ struct ComponentDocument {
 
 impl Document {
     fn new(template: &Template<'_>, total: usize) -> Self {
-        let terms = template.terms_len();
-        let records = template.component_count() * RECORD_LENGTH;
-        let validity = template.validity_len();
         let cost = template.cost();
         let quality = template.quality();
         let encoding = if template.has_maps() {
@@ -137,13 +126,7 @@ impl Document {
             validity: template.has_validity(),
             encoding,
             terms: template.term_count(),
-            bytes: Bytes {
-                total,
-                terms,
-                components: records,
-                validity,
-                other: total - terms - records - validity,
-            },
+            bytes: Bytes::of(template, total),
             kernel_evaluations_per_point: Evaluations {
                 nearest_most: cost.of(Assignment::Nearest),
                 maximum: cost.of(Assignment::Maximum),

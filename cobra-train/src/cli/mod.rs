@@ -20,6 +20,7 @@ mod learning;
 mod object;
 mod outputs;
 mod overlay;
+mod page;
 mod report;
 mod score;
 mod sources;
@@ -47,6 +48,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Ambiguity(arguments) => ambiguity::run(arguments, &terminal),
         Command::Calibrate(arguments) => calibrate::run(arguments, &terminal),
         Command::Overlay(arguments) => overlay::run(arguments, &terminal),
+        Command::Report(arguments) => page::run(arguments, &terminal),
         Command::Inspect(arguments) => inspect::run(arguments, &terminal),
         Command::Export(arguments) => export::run(arguments, &terminal),
         Command::Completions { shell } => {

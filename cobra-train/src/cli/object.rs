@@ -6,7 +6,7 @@
 use super::choices::UnitArgument;
 use super::failure::Failure;
 use super::terminal::Terminal;
-use cobra_infer::Unit;
+use cobra_infer::{Template, Unit};
 use cobra_train::progress::Progress;
 use cobra_train::surface::{BoundingSphere, Geometry, ReadGeometry, read_geometry};
 use std::path::Path;
@@ -66,4 +66,24 @@ impl Object {
         }
         wanted.or(self.prescribed).unwrap_or(Unit::Millimetre)
     }
+}
+
+/// A mesh whose diameter differs from the template's by more than this share is of another object.
+const DIAMETER: f64 = 0.05;
+
+/// Refuses a mesh of another diameter than the template's.
+pub(super) fn check_diameter(
+    template: &Template<'_>,
+    found: f64,
+    path: &Path,
+) -> Result<(), Failure> {
+    let expected = f64::from(template.diameter());
+    if (found / expected - 1.0).abs() <= DIAMETER {
+        return Ok(());
+    }
+    Err(Failure::BadInput(format!(
+        "{}: expected the template's object, with a diameter of {expected:.1} {unit}, found one of {found:.1}",
+        path.display(),
+        unit = template.unit().symbol()
+    )))
 }

@@ -8,6 +8,7 @@ mod rank;
 mod strict;
 
 pub use rank::rank_correlation;
+pub(crate) use strict::own_points;
 pub use strict::{OwnCloud, TrueSurface, WronglyAccepted, own_cloud, wrongly_accepted};
 
 use crate::output::{WriteError, write_whole};

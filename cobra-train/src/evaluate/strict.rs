@@ -141,7 +141,10 @@ pub fn own_cloud(
     if !template.has_validity() {
         return None;
     }
-    let cloud = predictions(template);
+    let cloud: Vec<_> = own_points(template)
+        .into_iter()
+        .map(|(_, point)| point)
+        .collect();
     let radius = f64::from(template.radius());
     let on_surface = cloud
         .par_iter()
@@ -171,12 +174,16 @@ pub fn own_cloud(
     })
 }
 
-fn predictions(template: &Template<'_>) -> Vec<Point3<f64>> {
+/// The points that all components predict on a grid of 6 × 6 directions in each valid cell, where they lie in
+/// the component's box, each with its component (object frame, template's unit). None of a template without
+/// validity.
+pub(crate) fn own_points(template: &Template<'_>) -> Vec<(usize, Point3<f64>)> {
     let grid = BoxGrid::new(template.centre(), template.radius());
     let components: Vec<_> = template.components().take(LARGEST_TEMPLATE).collect();
     components
         .par_iter()
-        .flat_map_iter(|component| {
+        .enumerate()
+        .flat_map_iter(|(index, component)| {
             let centre = Point3::from(component.centre);
             let validity = component.validity.into_iter();
             let cells = validity.flat_map(|validity| {
@@ -198,9 +205,9 @@ fn predictions(template: &Template<'_>) -> Vec<Point3<f64>> {
                     let position = grid.position(point.coords.into());
                     let in_box = (0..3)
                         .all(|i| (validity.low()[i]..=validity.high()[i]).contains(&position[i]));
-                    in_box.then(|| point.cast())
+                    in_box.then(|| (index, point.cast()))
                 })
-                .collect::<Vec<Point3<f64>>>()
+                .collect::<Vec<(usize, Point3<f64>)>>()
         })
         .collect()
 }

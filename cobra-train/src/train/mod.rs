@@ -22,6 +22,7 @@ pub use membership::Overlap;
 pub use options::{BUDGET, MAP_BUDGET, MOST_CHARTS, MeanForm, TrainOptions, Validity};
 pub use place::{PLACEMENTS, ReferencePoints};
 pub use uncovered::UncoveredRegion;
+pub(crate) use uncovered::regions;
 
 use crate::gp::FittedGp;
 use crate::progress::Progress;

@@ -24,7 +24,7 @@ pub struct UncoveredRegion {
 }
 
 /// The regions of `points`, of `total` in all, the largest first.
-pub(super) fn regions(points: &[Point3<f64>], total: usize, radius: f64) -> Vec<UncoveredRegion> {
+pub(crate) fn regions(points: &[Point3<f64>], total: usize, radius: f64) -> Vec<UncoveredRegion> {
     let coordinates: Vec<[f64; 3]> = points.iter().map(|p| (*p).into()).collect();
     let tree = NearestPoints::new(&coordinates);
     let mut region_of = vec![usize::MAX; points.len()];

@@ -2,7 +2,7 @@
 
 use crate::run::{run, succeed};
 
-const COMMANDS: [&str; 9] = [
+const COMMANDS: [&str; 10] = [
     "demo",
     "train",
     "score",
@@ -10,6 +10,7 @@ const COMMANDS: [&str; 9] = [
     "ambiguity",
     "calibrate",
     "experiment",
+    "report",
     "inspect",
     "export",
 ];

@@ -21,6 +21,7 @@ mod map;
 mod output;
 mod overlay;
 mod placement;
+mod report;
 mod run;
 mod scene;
 mod score;

@@ -1,4 +1,4 @@
-//! What each board came to: README's table.
+//! What each board came to: README's table, and the same for the command's pages.
 
 use crate::lines::{Lines, number};
 use crate::tenth;
@@ -137,6 +137,33 @@ pub(crate) fn table(rows: &[Row], rustc: &str) -> String {
             row.per_precision,
             row.mismatched_bits,
             row.points,
+        )
+        .expect("a string takes all");
+    }
+    text
+}
+
+/// The same numbers for the command, which shows them beside a template's own: `cobra-train/assets/boards.csv`.
+pub(crate) fn csv(rows: &[Row], rustc: &str) -> String {
+    let mut text = format!(
+        "# {rustc}\n\
+         target,board,code,stack,depth_code,depth_stack,point,component,component_with_precisions,\
+         evaluation_alpha_1,evaluation_alpha_half\n"
+    );
+    for row in rows {
+        let [one, half] = row.per_evaluation;
+        writeln!(
+            text,
+            "{},{},{},{},{},{},{:.0},{:.0},{:.0},{one:.1},{half:.1}",
+            row.target,
+            row.board,
+            row.text_bytes,
+            row.stack_bytes,
+            row.depth_text_bytes,
+            row.depth_stack_bytes,
+            row.per_point,
+            row.per_component,
+            row.per_precision,
         )
         .expect("a string takes all");
     }

@@ -1,11 +1,11 @@
-//! Turns what `tests/run firmware` collected into `target/firmware.json` and the tables of README and
-//! `docs/BENCHMARKS.md`.
+//! Turns what `tests/run firmware` collected into `target/firmware.json`, the tables of README and
+//! `docs/BENCHMARKS.md`, and `cobra-train/assets/boards.csv`, which `cobra report` shows.
 //!
 //! `firmware-budget FOLDER RUSTC`: FOLDER holds, for each row `TARGET BOARD` of its file `rows`,
 //! `BOARD-TARGET.elf` (the program `footprint`), `.depth.elf` (`footprint-depth`), `.budget` and `.agreement` (what these programs
 //! printed); for each row `NAME ARGUMENT…` of its file `objects`, if there is one, `NAME.object`,
 //! `NAME.check` and `NAME.json` (what `object`, `object-depth` and `cobra eval` printed); and `encodings` (what that program printed).
-//! RUSTC is the version that built them. With `--write` the tables are replaced, else compared.
+//! RUSTC is the version that built them. With `--write` they are replaced, else compared.
 
 mod boards;
 mod checks;
@@ -15,7 +15,7 @@ mod objects;
 mod page;
 
 use boards::Row;
-use page::{Near, compare_or_write};
+use page::{Near, compare_or_write, compare_or_write_csv};
 use serde_json::{Value, json};
 use std::error::Error;
 use std::fs;
@@ -79,6 +79,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let table = boards::table(&rows, rustc);
     let page = root.join("README.md");
     compare_or_write(&page, BOARDS, &table, Near::SameUnlessCompiler, write)?;
+    let file = root.join("cobra-train/assets/boards.csv");
+    compare_or_write_csv(&file, &boards::csv(&rows, rustc), write)?;
     let page = root.join("docs/BENCHMARKS.md");
     let table = encodings::table(&encodings, rustc);
     compare_or_write(&page, ENCODINGS, &table, Near::Tenth, write)?;

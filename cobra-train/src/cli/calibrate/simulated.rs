@@ -3,6 +3,7 @@
 use super::evidence::{Evidence, LeftOut, asked_provenance, shortened};
 use super::{CalibrateArguments, MasksArgument};
 use crate::cli::failure::Failure;
+use crate::cli::object::check_diameter;
 use crate::cli::report::plural;
 use crate::cli::terminal::Terminal;
 use cobra_infer::Template;
@@ -12,8 +13,7 @@ use cobra_train::bop::render::DepthNoise;
 use cobra_train::depth::template_surface;
 use cobra_train::progress::Progress;
 use cobra_train::simulation::{Simulation, SimulationError, simulate};
-use cobra_train::surface::{Mesh, read_mesh};
-use std::path::Path;
+use cobra_train::surface::read_mesh;
 
 pub(super) fn evidence(
     arguments: &CalibrateArguments,
@@ -26,7 +26,7 @@ pub(super) fn evidence(
     };
     let mesh = arguments.mesh.as_deref().map(read_mesh).transpose()?;
     if let (Some(mesh), Some(path)) = (&mesh, &arguments.mesh) {
-        check_diameter(template, mesh, path)?;
+        check_diameter(template, mesh.diameter(), path)?;
     }
     let mut room = vec![DecodedTerm::default(); template.decoded_len()];
     let decoded = template.decoded(&mut room);
@@ -75,20 +75,4 @@ pub(super) fn evidence(
             None => shortened(format!("{seen}, {pixels}, {sensor} mm")),
         },
     })
-}
-
-/// A mesh whose diameter differs from the template's by more than this share is of another object.
-const DIAMETER: f64 = 0.05;
-
-fn check_diameter(template: &Template<'_>, mesh: &Mesh, path: &Path) -> Result<(), Failure> {
-    let expected = f64::from(template.diameter());
-    let found = mesh.diameter();
-    if (found / expected - 1.0).abs() <= DIAMETER {
-        return Ok(());
-    }
-    Err(Failure::BadInput(format!(
-        "{}: expected the template's object, with a diameter of {expected:.1} {unit}, found one of {found:.1}",
-        path.display(),
-        unit = template.unit().symbol()
-    )))
 }

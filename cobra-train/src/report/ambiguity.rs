@@ -1,0 +1,261 @@
+//! Ambiguities as `cobra ambiguity --json` writes them.
+//!
+//! Owns what is read of that file and what a page refuses of it; how they are found is
+//! [`crate::ambiguity`]'s.
+
+use crate::ambiguity::{Path as Motions, Range, Screw, What};
+use crate::bop::symmetry::Axis;
+use nalgebra::{Isometry3, Point3, UnitVector3, Vector3};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// The version of the document that is read.
+const SCHEMA: u32 = 1;
+
+/// A document of more than this share of another diameter is of another object.
+const DIAMETER: f64 = 0.01;
+
+/// Larger files are no such document.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// What `cobra ambiguity` found.
+#[derive(Clone, Debug, Serialize)]
+pub struct AmbiguityReport {
+    /// In so many views of the object.
+    pub views: usize,
+    /// With so many rotations in each.
+    pub candidates: usize,
+    /// Poses of at least this ADD are wrong.
+    pub limit_mm: f64,
+    /// Whether the template's own threshold said what is accepted.
+    pub calibrated: bool,
+    /// Those in most views first.
+    pub found: Vec<ReportedAmbiguity>,
+    /// What follows, a sentence a line.
+    pub conclusion: String,
+}
+
+/// Wrong poses that score as well as the true one.
+#[derive(Clone, Debug, Serialize)]
+pub struct ReportedAmbiguity {
+    /// The motion, in words.
+    pub motion: String,
+    /// In so many views.
+    pub views: usize,
+    /// Their mean confidence.
+    pub confidence: f64,
+    /// The largest ADD.
+    pub add_mm: f64,
+    /// The largest ADD-S.
+    pub add_s_mm: f64,
+    /// The largest MSSD.
+    pub mssd_mm: f64,
+    /// Whether a data set states the symmetry; `None` where nothing is known of that.
+    pub stated: Option<bool>,
+}
+
+/// Why a file tells of no ambiguities.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadAmbiguityError {
+    /// The system refused.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// It is no such document.
+    #[error("{}: expected what cobra ambiguity --json writes: {what}", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        what: String,
+    },
+    /// It is of another object.
+    #[error(
+        "{}: expected ambiguities of `{expected}` with a diameter of {expected_mm:.1} mm, found those of \
+         `{found}` with one of {found_mm:.1} mm", path.display()
+    )]
+    OtherObject {
+        /// The file.
+        path: PathBuf,
+        /// The template's name.
+        expected: String,
+        /// Its diameter.
+        expected_mm: f64,
+        /// The name in the file.
+        found: String,
+        /// The diameter there.
+        found_mm: f64,
+    },
+}
+
+impl ReadAmbiguityError {
+    /// Whether the system refused, rather than the file being wrong.
+    #[must_use]
+    pub fn is_io(&self) -> bool {
+        matches!(self, Self::Io { .. })
+    }
+}
+
+#[derive(Deserialize)]
+struct Document {
+    schema: u32,
+    template: String,
+    diameter_mm: f64,
+    limit_mm: f64,
+    views: usize,
+    candidates: usize,
+    calibrated: bool,
+    ambiguities: Vec<Entry>,
+    conclusion: String,
+}
+
+#[derive(Deserialize)]
+struct Entry {
+    #[serde(flatten)]
+    what: WhatDocument,
+    views: usize,
+    confidence: f64,
+    add_mm: f64,
+    add_s_mm: f64,
+    mssd_mm: f64,
+    stated: Option<bool>,
+}
+
+#[derive(Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+enum WhatDocument {
+    Turns {
+        axis: [f64; 3],
+        any: bool,
+        low_degrees: Option<f64>,
+        high_degrees: Option<f64>,
+    },
+    Slides {
+        direction: [f64; 3],
+        low_mm: Option<f64>,
+        high_mm: Option<f64>,
+    },
+    Motion {
+        axis: [f64; 3],
+        angle_degrees: f64,
+        along_mm: f64,
+    },
+}
+
+impl WhatDocument {
+    /// In the words that the command has for it, with lengths in millimetres.
+    fn words(&self) -> String {
+        let axis = |direction: &[f64; 3]| Axis {
+            direction: UnitVector3::new_normalize(Vector3::from(*direction)),
+            offset: Point3::origin(),
+        };
+        let between = |low: Option<f64>, high: Option<f64>| Range::Between {
+            low: low.unwrap_or(0.0),
+            high: high.unwrap_or(0.0),
+        };
+        let what = match self {
+            Self::Turns {
+                axis: about,
+                any,
+                low_degrees,
+                high_degrees,
+            } => What::Path {
+                path: Motions::Turn(axis(about)),
+                range: if *any {
+                    Range::Any
+                } else {
+                    between(
+                        low_degrees.map(f64::to_radians),
+                        high_degrees.map(f64::to_radians),
+                    )
+                },
+            },
+            Self::Slides {
+                direction,
+                low_mm,
+                high_mm,
+            } => What::Path {
+                path: Motions::Slide(axis(direction).direction),
+                range: between(*low_mm, *high_mm),
+            },
+            Self::Motion {
+                axis: about,
+                angle_degrees,
+                along_mm,
+            } => What::Motion {
+                motion: Isometry3::identity(),
+                screw: Screw {
+                    axis: axis(about),
+                    angle: angle_degrees.to_radians(),
+                    along: *along_mm,
+                },
+            },
+        };
+        what.words(1.0)
+    }
+}
+
+/// Reads what was found of the object of this name and diameter.
+///
+/// # Errors
+/// [`ReadAmbiguityError`].
+pub fn read_ambiguity_report(
+    path: &Path,
+    name: &str,
+    diameter_mm: f64,
+) -> Result<AmbiguityReport, ReadAmbiguityError> {
+    let io = |source| ReadAmbiguityError::Io {
+        path: path.to_owned(),
+        source,
+    };
+    let malformed = |what: String| ReadAmbiguityError::Malformed {
+        path: path.to_owned(),
+        what,
+    };
+    let metadata = path.metadata().map_err(io)?;
+    if !metadata.is_file() || metadata.len() > MOST_BYTES {
+        return Err(malformed("found no file, or a very large one".to_owned()));
+    }
+    let text = std::fs::read_to_string(path).map_err(io)?;
+    let document: Document =
+        serde_json::from_str(&text).map_err(|error| malformed(error.to_string()))?;
+    if document.schema != SCHEMA {
+        return Err(malformed(format!(
+            "schema {SCHEMA}, found {}",
+            document.schema
+        )));
+    }
+    if document.template != name || (document.diameter_mm / diameter_mm - 1.0).abs() > DIAMETER {
+        return Err(ReadAmbiguityError::OtherObject {
+            path: path.to_owned(),
+            expected: name.to_owned(),
+            expected_mm: diameter_mm,
+            found: document.template,
+            found_mm: document.diameter_mm,
+        });
+    }
+    Ok(AmbiguityReport {
+        views: document.views,
+        candidates: document.candidates,
+        limit_mm: document.limit_mm,
+        calibrated: document.calibrated,
+        found: document
+            .ambiguities
+            .iter()
+            .map(|entry| ReportedAmbiguity {
+                motion: entry.what.words(),
+                views: entry.views,
+                confidence: entry.confidence,
+                add_mm: entry.add_mm,
+                add_s_mm: entry.add_s_mm,
+                mssd_mm: entry.mssd_mm,
+                stated: entry.stated,
+            })
+            .collect(),
+        conclusion: document.conclusion,
+    })
+}
