@@ -54,3 +54,7 @@ pub const SAME_SHAPE: f64 = 3.0;
 /// Errors of real estimates against the published ones, relative: these are of the estimates' matrices
 /// as single precision leaves them, the test's of the nearest rotations.
 pub const PUBLISHED_ERROR: f64 = 2e-6;
+
+/// A number of an experiment on the real data against the committed one, relative where it is above 1: what
+/// another processor's vector units make of training and of poses.
+pub const SAME_EXPERIMENT: f64 = 0.02;

@@ -29,6 +29,7 @@ fn the_table_of_tolerances_quotes_the_constants() {
         ("SAME_SHAPE", asserted::SAME_SHAPE),
         ("EXACT_CONFIDENCE", asserted::EXACT_CONFIDENCE),
         ("PUBLISHED_ERROR", asserted::PUBLISHED_ERROR),
+        ("SAME_EXPERIMENT", asserted::SAME_EXPERIMENT),
         ("ROUNDOFF", promised::ROUNDOFF),
         ("POSTERIOR_MEAN", promised::POSTERIOR_MEAN),
         ("CONFIDENCE", promised::CONFIDENCE),

@@ -214,15 +214,22 @@ pub(super) fn protocol() -> String {
         noise,
         ..
     } = Protocol::CORRELATION;
+    let listed = |numbers: &[f64]| {
+        let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
+        numbers.join(", ")
+    };
     format!(
         "As the supplement describes it: {points} surface points, projected by a camera of f = 600 pixels \
-         through every pose of a grid of Euler angles (φ {turns:?}°, θ {tilts:?}°) and distances \
-         ({distances:?} radii); normal noise of {inlier_noise} pixel on inliers; outliers of a share of 0.1, \
+         through every pose of a grid of Euler angles (φ {}°, θ {}°) and distances \
+         ({} radii); normal noise of {inlier_noise} pixel on inliers; outliers of a share of 0.1, \
          0.2, 0.3, 0.4 or 0.5, each with normal noise of 12, 24, 36, 48 or 60 pixels, and none: {} estimates \
          an object, whose poses have the least reprojection error (SQPnP, refined by Levenberg-Marquardt). The \
          supplement does not print its grid. ADD is over 2,000 points. Confidence: \
          default template, σ_m = {NOISE} radii; the exact distance is scored with the same σ_m. An inlier's \
          reprojection error is below {INLIER} pixels.",
+        listed(turns),
+        listed(tilts),
+        listed(distances),
         turns.len() * tilts.len() * distances.len() * noise.len(),
     )
 }
