@@ -2,12 +2,12 @@
 
 use super::failure::Failure;
 use super::report::{plural, table};
-use super::terminal::{Terminal, one_line};
+use super::terminal::{Terminal, command_line};
 use clap::{Args, ValueEnum};
 use cobra_train::experiment::{
     Bench, Data, Experiment, ExperimentError, Findings, Machine, document,
 };
-use cobra_train::output::write_whole;
+use cobra_train::output::{check_writable, write_whole};
 use cobra_train::progress::Progress;
 use std::path::PathBuf;
 
@@ -16,7 +16,8 @@ use std::path::PathBuf;
     after_help = "Writes NAME.csv (every number), NAME.svg (the figure) and NAME.md (what there is to read, \
                   beside what the paper prints) into the folder, and of `all` paper.md. What is done is kept in \
                   NAME.jsonl and templates/, so that a run that was interrupted goes on where it was; \
-                  --fresh begins anew.\n\nData: meshes in DIR/meshes/CLASS, in DIR/CLASS, or in DIR itself. \
+                  --fresh begins anew.\n\nData: meshes in DIR/meshes/CLASS, in DIR/CLASS (there also in folders of objects, as in ShapeNetCore), or in \
+                  DIR itself. \
                   Classes of the paper are planes, chairs, sofas and screwdrivers; DIR/screwdriver beside \
                   DIR/meshes holds the paper's own screwdriver.\n\nExamples:\n  cobra experiment shape --data \
                   data --out results\n  cobra experiment all --data data --out results\n  cobra experiment \
@@ -87,7 +88,11 @@ impl Name {
 
 pub(super) fn run(arguments: &ExperimentArguments, terminal: &Terminal) -> Result<(), Failure> {
     let data = match &arguments.data {
-        Some(folder) => Data::read(folder)?,
+        Some(folder) => {
+            let data = Data::read(folder)?;
+            terminal.say(&format!("objects: {}", data.words()));
+            data
+        }
         None => {
             terminal
                 .say("note: without --data the demonstration's part is all there is to measure");
@@ -104,6 +109,12 @@ pub(super) fn run(arguments: &ExperimentArguments, terminal: &Terminal) -> Resul
         arguments.fresh,
         terminal,
     );
+    for experiment in arguments.name.experiments() {
+        for extension in ["csv", "svg", "md"] {
+            check_writable(&out.join(format!("{}.{extension}", experiment.name())))?;
+        }
+    }
+    check_writable(&out.join("paper.md"))?;
     let mut findings = Vec::new();
     for experiment in arguments.name.experiments() {
         match experiment.run(&bench) {
@@ -122,8 +133,7 @@ pub(super) fn run(arguments: &ExperimentArguments, terminal: &Terminal) -> Resul
     }
     if matches!(arguments.name, Name::All) && !findings.is_empty() {
         let path = out.join("paper.md");
-        let words: Vec<String> = std::env::args().skip(1).collect();
-        let command = format!("cobra {}", one_line(&words.join(" ")));
+        let command = command_line(std::env::args_os().skip(1));
         let text = document(&findings, &Machine::this(), arguments.seed, &command);
         write_whole(&path, text.as_bytes())?;
         terminal.print(&format!("written: {}", path.display()))?;
@@ -132,7 +142,7 @@ pub(super) fn run(arguments: &ExperimentArguments, terminal: &Terminal) -> Resul
         0 => Ok(()),
         count => Err(Failure::BadInput(format!(
             "{} failed; the results are of the others",
-            plural(count, "object")
+            plural(count, "result")
         ))),
     }
 }
@@ -143,7 +153,7 @@ fn text(found: &Findings) -> String {
     for part in &found.tables {
         let header: Vec<&str> = part.header.iter().map(String::as_str).collect();
         text += &format!("\n{}\n", part.caption.replace("**", ""));
-        text += &format!("{}\n", table(&header, &header[..1], &part.rows));
+        text += &format!("{}\n", table(&header, &header[..part.text], &part.rows));
     }
     for remark in &found.remarks {
         text += &format!("\n{remark}\n");

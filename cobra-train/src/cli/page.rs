@@ -8,7 +8,7 @@ use super::failure::Failure;
 use super::object;
 use super::outputs;
 use super::template_file;
-use super::terminal::Terminal;
+use super::terminal::{Terminal, command_line};
 use cobra_infer::Template;
 use cobra_train::digits::grouped;
 use cobra_train::evaluate::evaluation_points;
@@ -52,10 +52,11 @@ pub(super) fn run(arguments: &ReportArguments, terminal: &Terminal) -> Result<()
             curves,
             ambiguities,
             seed: arguments.seed,
-            command: command(std::env::args_os().skip(1)),
+            command: command_line(std::env::args_os().skip(1)),
         },
-    )?;
+    );
     terminal.finish();
+    let data = data?;
     let page = html(&data).map_err(|error| Failure::Io(format!("cannot write JSON: {error}")))?;
     let Some(output) = output else {
         return terminal.print(&page);
@@ -100,42 +101,4 @@ fn object(
     let points = evaluation_points(&geometry, arguments.points as usize, arguments.seed)
         .map_err(|error| Failure::BadInput(format!("{}: {error}", path.display())))?;
     Ok(Some((geometry, points)))
-}
-
-/// The command as a shell would take it again.
-fn command(words: impl Iterator<Item = std::ffi::OsString>) -> String {
-    let quoted = words.map(|word| {
-        let word = word.to_string_lossy().into_owned();
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+@%".contains(c);
-        if !word.is_empty() && word.chars().all(plain) {
-            word
-        } else {
-            format!("'{}'", word.replace('\'', r"'\''"))
-        }
-    });
-    std::iter::once("cobra".to_owned())
-        .chain(quoted)
-        .collect::<Vec<_>>()
-        .join(" ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::command;
-
-    #[test]
-    fn the_command_is_one_that_a_shell_takes_again() {
-        let words = [
-            "report",
-            "my part.cobra",
-            "--mesh=a'b.ply",
-            "",
-            "-o",
-            "x.html",
-        ];
-        assert_eq!(
-            command(words.into_iter().map(Into::into)),
-            r"cobra report 'my part.cobra' '--mesh=a'\''b.ply' '' -o x.html"
-        );
-    }
 }

@@ -147,3 +147,41 @@ pub(crate) fn one_line(text: &str) -> String {
         .collect::<Vec<_>>()
         .join(" ")
 }
+
+/// The command as a shell would take it again.
+pub(super) fn command_line(words: impl Iterator<Item = std::ffi::OsString>) -> String {
+    let quoted = words.map(|word| {
+        let word = word.to_string_lossy().into_owned();
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+@%".contains(c);
+        if !word.is_empty() && word.chars().all(plain) {
+            word
+        } else {
+            format!("'{}'", word.replace('\'', r"'\''"))
+        }
+    });
+    std::iter::once("cobra".to_owned())
+        .chain(quoted)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::command_line;
+
+    #[test]
+    fn the_command_is_one_that_a_shell_takes_again() {
+        let words = [
+            "report",
+            "my part.cobra",
+            "--mesh=a'b.ply",
+            "",
+            "-o",
+            "x.html",
+        ];
+        assert_eq!(
+            command_line(words.into_iter().map(Into::into)),
+            r"cobra report 'my part.cobra' '--mesh=a'\''b.ply' '' -o x.html"
+        );
+    }
+}

@@ -1,13 +1,14 @@
 //! What an experiment works with, and how its units are run.
 
-use super::Experiment;
 use super::error::ExperimentError;
 use super::journal::{Heading, Journal};
 use super::subject::{Data, Subject};
+use super::{Experiment, PROTOCOL};
 use crate::progress::Progress;
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Mutex;
 
@@ -23,6 +24,8 @@ pub struct Bench<'a> {
     pub fresh: bool,
     progress: &'a dyn Progress,
     failures: Mutex<Vec<String>>,
+    /// The templates that this bench has written.
+    pub(super) written: Mutex<BTreeSet<PathBuf>>,
 }
 
 /// The rows of objects, and the seconds that they took.
@@ -54,10 +57,11 @@ impl<'a> Bench<'a> {
             fresh,
             progress,
             failures: Mutex::default(),
+            written: Mutex::default(),
         }
     }
 
-    /// What failed, an object a line; the results are of the others.
+    /// What failed, an object of an experiment a line; the results are of the others.
     #[must_use]
     pub fn failures(&self) -> Vec<String> {
         self.failures
@@ -70,6 +74,7 @@ impl<'a> Bench<'a> {
         let heading = Heading {
             experiment: experiment.name().to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
+            protocol: PROTOCOL,
             seed: self.seed,
         };
         Journal::open(&path, &heading, self.fresh)
@@ -97,6 +102,7 @@ impl<'a> Bench<'a> {
                 Some(row) => Ok(Some((index, row))),
                 None => match compute(unit) {
                     Ok(row) => journal.keep(&key, &row).map(|()| Some((index, row))),
+                    Err(error) if !error.is_of_object() => Err(error),
                     Err(error) => {
                         self.fail(format!("{stage}: {error}"));
                         Ok(None)

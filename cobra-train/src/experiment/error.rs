@@ -67,6 +67,12 @@ pub enum ExperimentError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// A file that stands where a journal belongs is none.
+    #[error("{}: expected a journal of experiments, found something else: use another folder", path.display())]
+    NoJournal {
+        /// The file.
+        path: PathBuf,
+    },
     /// A result cannot be put into the journal.
     #[error("{unit}: cannot be kept: {source}")]
     Row {
@@ -84,6 +90,19 @@ pub enum ExperimentError {
 }
 
 impl ExperimentError {
+    /// Whether an object is at fault, so that others may do better.
+    pub(super) fn is_of_object(&self) -> bool {
+        matches!(
+            self,
+            Self::Mesh(_)
+                | Self::Sample { .. }
+                | Self::Train { .. }
+                | Self::Template(_)
+                | Self::Score(_)
+                | Self::Pose(_)
+        )
+    }
+
     /// Whether reading or writing failed, as opposed to what was read.
     #[must_use]
     pub fn is_io(&self) -> bool {

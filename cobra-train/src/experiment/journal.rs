@@ -4,6 +4,7 @@
 //! that was cut short is as if it were not there.
 
 use super::error::ExperimentError;
+use crate::output::write_whole;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -19,13 +20,17 @@ use std::time::Instant;
 pub(super) struct Heading {
     pub(super) experiment: String,
     pub(super) version: String,
+    /// [`PROTOCOL`](super::PROTOCOL).
+    pub(super) protocol: u32,
     pub(super) seed: u64,
 }
 
 #[derive(Serialize, Deserialize)]
 struct Line {
     unit: String,
-    /// Since the session began.
+    /// Which run it was done in, from 0.
+    session: u32,
+    /// Since that run began.
     seconds: f64,
     row: Value,
 }
@@ -35,12 +40,14 @@ pub(super) struct Journal {
     path: PathBuf,
     file: Mutex<File>,
     done: BTreeMap<String, Value>,
+    session: u32,
     earlier: f64,
     began: Instant,
 }
 
 impl Journal {
-    /// Opens the journal at `path`; one of other settings, or of `fresh`, begins anew.
+    /// Opens the journal at `path`; one of other settings, or of `fresh`, begins anew. A file that is no journal is
+    /// left alone.
     pub(super) fn open(
         path: &Path,
         heading: &Heading,
@@ -51,33 +58,36 @@ impl Journal {
             source,
         };
         let text = match std::fs::read_to_string(path) {
-            Ok(text) if !fresh => text,
+            Ok(text) => text,
             Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
                 return Err(failed(source));
             }
-            _ => String::new(),
+            Err(_) => String::new(),
         };
         let mut lines = text.lines();
-        let known = lines
-            .next()
-            .and_then(|line| serde_json::from_str::<Heading>(line).ok());
+        let known = match lines.next() {
+            Some(line) => Some(serde_json::from_str::<Heading>(line).map_err(|_| {
+                ExperimentError::NoJournal {
+                    path: path.to_owned(),
+                }
+            })?),
+            None => None,
+        };
         let mut kept: Vec<Line> = Vec::new();
-        if known.as_ref() == Some(heading) {
+        if !fresh && known.as_ref() == Some(heading) {
             kept.extend(lines.map_while(|line| serde_json::from_str(line).ok()));
         }
         // Written anew, so that nothing follows half a line.
-        let mut file = File::create(path).map_err(failed)?;
-        let mut put = |line: serde_json::Result<String>| {
-            let line = line.map_err(std::io::Error::from)?;
-            writeln!(file, "{line}")
-        };
-        put(serde_json::to_string(heading)).map_err(failed)?;
+        let mut whole = serde_json::to_string(heading).map_err(|e| failed(e.into()))? + "\n";
         for line in &kept {
-            put(serde_json::to_string(line)).map_err(failed)?;
+            whole += &(serde_json::to_string(line).map_err(|e| failed(e.into()))? + "\n");
         }
+        write_whole(path, whole.as_bytes())?;
+        let file = File::options().append(true).open(path).map_err(failed)?;
         Ok(Self {
             path: path.to_owned(),
             file: Mutex::new(file),
+            session: kept.iter().map(|line| line.session + 1).max().unwrap_or(0),
             earlier: sessions(&kept),
             done: kept.into_iter().map(|line| (line.unit, line.row)).collect(),
             began: Instant::now(),
@@ -97,11 +107,11 @@ impl Journal {
         };
         let line = Line {
             unit: unit.to_owned(),
+            session: self.session,
             seconds: self.began.elapsed().as_secs_f64(),
             row: serde_json::to_value(row).map_err(failed)?,
         };
-        let mut line = serde_json::to_string(&line).map_err(failed)?;
-        line.push('\n');
+        let line = serde_json::to_string(&line).map_err(failed)? + "\n";
         let written = match self.file.lock() {
             // In one piece, so that a run that is killed leaves at most its last line short.
             Ok(mut file) => file.write_all(line.as_bytes()).and_then(|()| file.flush()),
@@ -119,13 +129,14 @@ impl Journal {
     }
 }
 
-/// Within a session the clock runs on; where it falls back, another begins.
+/// The latest time of each session, added.
 fn sessions(lines: &[Line]) -> f64 {
-    let parts = lines.chunk_by(|a, b| a.seconds <= b.seconds);
-    parts
-        .filter_map(|part| part.last())
-        .map(|line| line.seconds)
-        .sum()
+    let mut latest = BTreeMap::<u32, f64>::new();
+    for line in lines {
+        let of = latest.entry(line.session).or_default();
+        *of = of.max(line.seconds);
+    }
+    latest.values().sum()
 }
 
 #[cfg(test)]
@@ -136,6 +147,7 @@ mod tests {
         Heading {
             experiment: "shape".to_owned(),
             version: "1".to_owned(),
+            protocol: 1,
             seed,
         }
     }
@@ -172,6 +184,16 @@ mod tests {
     }
 
     #[test]
+    fn a_file_that_is_no_journal_is_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("shape.jsonl");
+        std::fs::write(&path, "somebody's notes\n").unwrap();
+        let refused = Journal::open(&path, &heading(0), true).err().unwrap();
+        assert!(refused.to_string().contains("shape.jsonl"), "{refused}");
+        assert_eq!(std::fs::read(&path).unwrap(), b"somebody's notes\n");
+    }
+
+    #[test]
     fn a_row_of_another_form_is_done_again() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("shape.jsonl");
@@ -184,12 +206,15 @@ mod tests {
 
     #[test]
     fn the_time_is_that_of_all_sessions() {
-        let line = |seconds| Line {
+        let line = |(session, seconds)| Line {
             unit: String::new(),
+            session,
             seconds,
             row: Value::Null,
         };
-        assert_eq!(sessions(&[2.0, 5.0, 1.0, 1.0, 4.0].map(line)), 9.0);
+        // Two threads may swap their lines, and a later session may begin with a longer unit.
+        let lines = [(0, 5.0), (0, 2.0), (1, 10.0), (1, 11.0)].map(line);
+        assert_eq!(sessions(&lines), 16.0);
         assert_eq!(sessions(&[]), 0.0);
     }
 }

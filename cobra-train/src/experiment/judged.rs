@@ -24,6 +24,9 @@ pub(super) const NOISE: f64 = 0.02;
 /// A reprojection error below so many pixels makes a correspondence an inlier of the estimate.
 pub(super) const INLIER: f64 = 5.0;
 
+/// What counts as the reprojection error of a point behind the camera: the image's diagonal, in pixels.
+const BEHIND: f64 = 800.0;
+
 /// An estimate, and everything that could tell whether it is right.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Judged {
@@ -98,7 +101,7 @@ fn judge(
             oracle += (-0.5 * (distance / NOISE).powi(2)).exp();
         }
         let again = camera.project(&pose.to_camera(&correspondence.point));
-        let error = again.map_or(f64::INFINITY, |pixel| {
+        let error = again.map_or(BEHIND, |pixel| {
             f64::from((pixel - correspondence.pixel).norm())
         });
         inliers += f64::from(u8::from(error < INLIER));

@@ -16,10 +16,9 @@ use crate::gp::{
 use crate::plot::{Axis, Colour, Item, Look, Mark, Page, Panel};
 use crate::progress::Progress;
 use crate::random::Purpose;
-use crate::surface::{Mesh, RayCaster};
-use crate::train::{TrainOptions, train};
+use crate::surface::RayCaster;
+use crate::train::{FITTING, TrainOptions, train};
 use cobra_infer::{Assignment, Exponent, Kernel, Template};
-use nalgebra::Point3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
@@ -45,7 +44,7 @@ const SETTINGS: [(Optimiser, Subset); 9] = [
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Row {
     /// The mean of L/n over components, on all of their points whatever was learned on.
-    likelihood: f64,
+    likelihood: Option<f64>,
     chamfer: f64,
     f_score: f64,
     seconds: f64,
@@ -54,9 +53,6 @@ struct Row {
 
 pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
     let shown = bench.data.shown();
-    let mesh = shown.mesh()?;
-    let caster = RayCaster::new(&mesh);
-    let points = shown.sample(&mesh, &caster, POINTS, bench.seed, Purpose::Evaluation)?;
     let journal = bench.journal(Experiment::Learning)?;
     let rows = bench.rows(
         &journal,
@@ -64,7 +60,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         &SETTINGS,
         Order::Single,
         |setting| format!("{} {}", shown.key(), name(setting)),
-        |setting| measure(bench, shown, &mesh, &points, setting),
+        |setting| measure(bench, shown, setting),
     )?;
     let mut numbers = Table::new(
         "",
@@ -84,7 +80,8 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         numbers.push(vec![
             optimiser_name(&optimiser).to_owned(),
             subset_name(subset),
-            format!("{:.4}", row.likelihood),
+            row.likelihood
+                .map_or_else(|| "–".to_owned(), |l| format!("{l:.4}")),
             format!("{:.2}", row.f_score),
             format!("{:.4}", row.chamfer),
             format!("{:.2}", row.seconds),
@@ -92,7 +89,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         ]);
         let look = if optimiser == ADAM { PAPERS } else { OURS };
         for (items, value) in [
-            (&mut by_likelihood, row.likelihood),
+            (&mut by_likelihood, row.likelihood.unwrap_or(f64::NAN)),
             (&mut by_f, row.f_score),
         ] {
             let at = (row.seconds, value);
@@ -101,14 +98,8 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         }
     }
     let times = || rows.iter().map(|(_, row)| row.seconds);
-    let around = |values: Vec<f64>, step: f64| -> Vec<f64> {
-        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let steps = (low / step).floor() as i64..=(high / step).ceil() as i64;
-        steps.map(|index| index as f64 * step).collect()
-    };
-    let likelihoods = around(rows.iter().map(|(_, row)| row.likelihood).collect(), 0.1);
-    let scores = around(rows.iter().map(|(_, row)| row.f_score).collect(), 0.5);
+    let likelihoods = rows.iter().filter_map(|(_, row)| row.likelihood);
+    let scores = rows.iter().map(|(_, row)| row.f_score);
     let panel = |heading: &str, up, items| Panel {
         heading: heading.to_owned(),
         across: Axis::around("seconds of learning and fitting", times()),
@@ -124,14 +115,14 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         ),
         legend: &[
             (OURS, "L-BFGS-B".to_owned()),
-            (PAPERS, "Adam, the paper's recipe".to_owned()),
+            (PAPERS, "Adam".to_owned()),
         ],
         columns: 2,
         panel: (500, 380),
     }
     .svg(&[
-        panel("Likelihood", Axis::linear("L/n on all points (less is better)", &likelihoods, 0.05), by_likelihood),
-        panel("F-score", Axis::linear("F, % (more is better)", &scores, 0.05), by_f),
+        panel("Likelihood", Axis::steps("L/n on all points (less is better)", likelihoods, 0.1, (-20.0, 20.0)), by_likelihood),
+        panel("F-score", Axis::steps("F, % (more is better)", scores, 0.5, (0.0, 100.0)), by_f),
     ])?;
     let mut table = numbers.clone();
     table.caption =
@@ -144,7 +135,8 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         protocol: format!(
             "`{}`, {COMPONENTS} k-means components, the same for all; rational quadratic, α = ½, on the chord, \
              average prior mean, noise variance at least 1e-5 for both optimisers. L-BFGS-B: at most 60 \
-             iterations. Adam: rate 0.1, times 0.1 after 10 iterations without improvement, 250 iterations. \
+             iterations. Adam: rate 0.1, times 0.1 after 10 iterations without improvement, 250 iterations, from \
+             L-BFGS-B's start. \
              Weights are always those of all points. Seconds are of all components on this machine's cores.",
             shown.name
         ),
@@ -168,13 +160,13 @@ fn remarks(rows: &[(usize, Row)]) -> Vec<String> {
     };
     let all = [Optimiser::Lbfgs, ADAM].map(|optimiser| of(optimiser, Subset::All));
     let mut remarks = Vec::new();
-    if let [Some(lbfgs), Some(adam)] = all {
+    if let [Some(lbfgs), Some(adam)] = all
+        && let [Some(ours), Some(its)] = [lbfgs, adam].map(|row| row.likelihood)
+    {
         remarks.push(format!(
-            "On all points L-BFGS-B reaches {:.3} in {:.1} s, Adam {:.3} in {:.1} s, {:.0} times as long; F {:.2} \
-             and {:.2}.",
-            lbfgs.likelihood,
+            "On all points of a component L-BFGS-B reaches an L/n of {ours:.3} in {:.1} s, Adam {its:.3} in {:.1} s, \
+             {:.1} times the time; F {:.2} and {:.2}.",
             lbfgs.seconds,
-            adam.likelihood,
             adam.seconds,
             adam.seconds / lbfgs.seconds,
             lbfgs.f_score,
@@ -217,10 +209,11 @@ fn name((optimiser, subset): &(Optimiser, Subset)) -> String {
 fn measure(
     bench: &Bench<'_>,
     subject: &Subject,
-    mesh: &Mesh,
-    points: &[Point3<f64>],
     (optimiser, subset): &(Optimiser, Subset),
 ) -> Result<Row, ExperimentError> {
+    let mesh = subject.mesh()?;
+    let caster = RayCaster::new(&mesh);
+    let points = subject.sample(&mesh, &caster, POINTS, bench.seed, Purpose::Evaluation)?;
     let mut options = TrainOptions::clustered(NAME, COMPONENTS);
     options.seed = bench.seed;
     options.test_points = SIGMA_POINTS;
@@ -237,20 +230,21 @@ fn measure(
     let shape = evaluate(
         &Template::from_bytes(&trained.bytes)?,
         Assignment::Nearest,
-        points,
+        &points,
     )?
     .shape;
-    let likelihoods: Vec<f64> = trained
+    // Of all components or of none: means over different ones would not compare.
+    let likelihoods: Option<Vec<f64>> = trained
         .components
         .par_iter()
-        .filter_map(|component| likelihood(&component.fitted))
+        .map(|component| likelihood(&component.fitted))
         .collect();
     let iterations = trained
         .components
         .iter()
         .map(|c| c.fitted.learned.iterations as f64);
     Ok(Row {
-        likelihood: mean(likelihoods),
+        likelihood: likelihoods.map(mean),
         chamfer: shape.chamfer,
         f_score: shape.f_score,
         seconds: watch.fitting().as_secs_f64(),
@@ -283,7 +277,7 @@ impl Watch {
 impl Progress for Watch {
     fn start(&self, name: &str, _: u64) {
         if let Ok(mut state) = self.0.lock() {
-            state.0 = (name == "fitting components").then(Instant::now);
+            state.0 = (name == FITTING).then(Instant::now);
         }
     }
 

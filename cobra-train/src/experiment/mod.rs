@@ -36,6 +36,9 @@ pub use findings::Findings;
 pub use subject::{Data, Subject};
 pub use table::Table;
 
+/// Raised whenever an experiment measures something else, so that what is kept of it is not taken for that.
+pub(crate) const PROTOCOL: u32 = 2;
+
 /// An experiment of the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Experiment {

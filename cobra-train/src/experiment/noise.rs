@@ -8,7 +8,6 @@ use super::findings::Findings;
 use super::judged::{Judged, judge_all};
 use super::table::{Table, mean};
 use crate::plot::{Axis, Item, Page, Panel};
-use std::fmt::Write as _;
 
 const SHARES: [f64; 7] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 const SIZES: [f64; 6] = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0];
@@ -54,6 +53,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         caption: "Mean confidence over outlier share (down) and outlier noise (across).".to_owned(),
         header,
         rows: Vec::new(),
+        text: 1,
     };
     let (mut confidences, mut errors) = (Vec::new(), Vec::new());
     let mut rises: Vec<String> = Vec::new();
@@ -76,20 +76,37 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
             ];
             confidences.push(Item::Cell(corners, confidence, format!("{confidence:.2}")));
             errors.push(Item::Cell(corners, add / largest, format!("{add:.3}")));
-            let before = row
-                .checked_sub(1)
-                .map(|row| cell(SHARES[row], size, |j| j.confidence));
-            if before.is_some_and(|before| confidence > before) {
-                rises.push(format!("{share} at {size} px"));
+            let beside = [
+                (row.checked_sub(1), Some(column)),
+                (Some(row), column.checked_sub(1)),
+            ];
+            for (row, column) in beside {
+                let (Some(row), Some(column)) = (row, column) else {
+                    continue;
+                };
+                let before = cell(SHARES[row], SIZES[column], |j| j.confidence);
+                // Without outliers their noise is nobody's.
+                if confidence > before && share > 0.0 {
+                    rises.push(format!("{share} at {size} px"));
+                }
             }
         }
         table.push(cells);
     }
-    let mut trend = "The confidence falls with every step of the outlier share".to_owned();
-    if !rises.is_empty() {
-        let _ = write!(trend, " but to {}", rises.join(", "));
-    }
-    trend += ", as in the paper's figure.";
+    let trend = if rises.is_empty() {
+        "The confidence falls with every step of the outlier share and of the outlier noise, as in the paper's \
+         figure."
+            .to_owned()
+    } else {
+        rises.dedup();
+        format!(
+            "The confidence falls with most steps of the outlier share and of the outlier noise; it rises in {} of \
+             {} cells: {}.",
+            rises.len(),
+            (SHARES.len() - 1) * SIZES.len(),
+            rises.join(", ")
+        )
+    };
 
     let panel = |heading: &str, items| Panel {
         heading: heading.to_owned(),

@@ -92,7 +92,7 @@ impl Data {
     }
 
     /// The meshes of a folder: of `meshes/CLASS`, else of folders `CLASS`, else those that lie in it, of the
-    /// class of its name. `screwdriver/model.ply` beside `meshes` is the paper's own object, of the
+    /// class of its name; below a class also in folders of objects, as ShapeNetCore keeps them. `screwdriver/model.ply` beside `meshes` is the paper's own object, of the
     /// class `screwdrivers`. Classes of the paper come first, in its order; others by name.
     ///
     /// # Errors
@@ -107,10 +107,9 @@ impl Data {
         if root == meshes {
             let own = folder.join(OWN.0);
             if own.is_dir() {
-                subjects.extend(of_class(&own, OWN.1)?.into_iter().map(|subject| Subject {
-                    name: OWN.0.to_owned(),
-                    ..subject
-                }));
+                for path in entries(&own)?.into_iter().filter(|path| is_mesh(path)) {
+                    subjects.push(subject(OWN.1, OWN.0.to_owned(), path)?);
+                }
             }
         }
         if subjects.is_empty() {
@@ -128,6 +127,14 @@ impl Data {
             key(a).cmp(&key(b)).then_with(|| a.name.cmp(&b.name))
         });
         Ok(Self { subjects })
+    }
+
+    /// How many objects of which classes there are, in words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let groups = self.subjects.chunk_by(|a, b| a.class == b.class);
+        let words = groups.map(|group| format!("{} {}", group[0].class, group.len()));
+        words.collect::<Vec<_>>().join(", ")
     }
 
     /// All objects.
@@ -171,32 +178,59 @@ pub(super) fn classes<'s>(subjects: &[&'s Subject]) -> Vec<&'s str> {
     groups.map(|group| group[0].class.as_str()).collect()
 }
 
+/// Meshes in folders of folders, as ShapeNetCore keeps them, are found so deep below their class.
+const DEPTH: usize = 3;
+
+/// The meshes of a class: those in its folder, by their file's name, and those in folders below, by that of the
+/// first.
 fn of_class(folder: &Path, class: &str) -> Result<Vec<Subject>, ExperimentError> {
-    let mesh = |path: &&PathBuf| {
-        let extension = path.extension().and_then(|extension| extension.to_str());
-        let extension = extension.map(str::to_ascii_lowercase);
-        path.is_file() && extension.is_some_and(|e| EXTENSIONS.contains(&e.as_str()))
-    };
-    let files = entries(folder)?;
-    let meshes = files.iter().filter(mesh);
-    meshes
-        .map(|path| {
-            let bytes = std::fs::read(path).map_err(|source| ExperimentError::Folder {
-                path: path.clone(),
-                source,
-            })?;
-            Ok(Subject {
-                class: class.to_owned(),
-                name: path
-                    .file_stem()
-                    .unwrap_or_default()
-                    .to_string_lossy()
-                    .into_owned(),
-                path: Some(path.clone()),
-                checksum: CHECKSUM.checksum(&bytes),
-            })
-        })
-        .collect()
+    let mut subjects = Vec::new();
+    for entry in entries(folder)? {
+        if entry.is_dir() {
+            for path in meshes_below(&entry, DEPTH)? {
+                subjects.push(subject(class, file_name(&entry), path)?);
+            }
+        } else if is_mesh(&entry) {
+            let name = entry.file_stem().unwrap_or_default();
+            subjects.push(subject(
+                class,
+                name.to_string_lossy().into_owned(),
+                entry.clone(),
+            )?);
+        }
+    }
+    Ok(subjects)
+}
+
+fn meshes_below(folder: &Path, depth: usize) -> Result<Vec<PathBuf>, ExperimentError> {
+    let mut found = Vec::new();
+    for entry in entries(folder)? {
+        if entry.is_dir() && depth > 1 {
+            found.extend(meshes_below(&entry, depth - 1)?);
+        } else if is_mesh(&entry) {
+            found.push(entry);
+        }
+    }
+    Ok(found)
+}
+
+fn is_mesh(path: &Path) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    let extension = extension.map(str::to_ascii_lowercase);
+    path.is_file() && extension.is_some_and(|e| EXTENSIONS.contains(&e.as_str()))
+}
+
+fn subject(class: &str, name: String, path: PathBuf) -> Result<Subject, ExperimentError> {
+    let bytes = std::fs::read(&path).map_err(|source| ExperimentError::Folder {
+        path: path.clone(),
+        source,
+    })?;
+    Ok(Subject {
+        class: class.to_owned(),
+        name,
+        checksum: CHECKSUM.checksum(&bytes),
+        path: Some(path),
+    })
 }
 
 /// What lies in a folder, by name.
@@ -218,4 +252,71 @@ fn file_name(path: &Path) -> String {
         .unwrap_or_default()
         .to_string_lossy()
         .into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    fn names(data: &Data) -> Vec<(&str, &str)> {
+        let all = data.all().iter();
+        all.map(|subject| (subject.class.as_str(), subject.name.as_str()))
+            .collect()
+    }
+
+    #[test]
+    fn classes_of_the_paper_come_first_and_its_screwdriver_joins_its_class() {
+        let folder = tempfile::tempdir().unwrap();
+        for file in [
+            "meshes/bolts/a.STL",
+            "meshes/sofas/b.obj",
+            "meshes/sofas/notes.txt",
+            "meshes/planes/c.glb",
+            "screwdriver/model.ply",
+            "clouds/d.ply",
+        ] {
+            let path = folder.path().join(file);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, file).unwrap();
+        }
+        let data = Data::read(folder.path()).unwrap();
+        let expected = [
+            ("planes", "c"),
+            ("sofas", "b"),
+            ("screwdrivers", "screwdriver"),
+            ("bolts", "a"),
+        ];
+        assert_eq!(names(&data), expected);
+        assert_eq!(data.shown().name, "screwdriver");
+        assert_eq!(data.of_the_paper().len(), 3);
+    }
+
+    #[test]
+    fn folders_of_objects_below_a_class_and_loose_meshes_are_found() {
+        let folder = tempfile::tempdir().unwrap();
+        let deep = folder.path().join("02691156/1a04/models");
+        fs::create_dir_all(&deep).unwrap();
+        fs::write(deep.join("model_normalized.obj"), "x").unwrap();
+        let data = Data::read(folder.path()).unwrap();
+        assert_eq!(names(&data), [("02691156", "1a04")]);
+        fs::write(deep.join("loose.stl"), "x").unwrap();
+        let data = Data::read(&deep).unwrap();
+        assert_eq!(
+            names(&data),
+            [("models", "loose"), ("models", "model_normalized")]
+        );
+        assert_eq!(data.words(), "models 2");
+    }
+
+    #[test]
+    fn another_content_is_another_key() {
+        let folder = tempfile::tempdir().unwrap();
+        let key = |content: &str| {
+            fs::write(folder.path().join("a.stl"), content).unwrap();
+            Data::read(folder.path()).unwrap().all()[0].key()
+        };
+        assert_ne!(key("one"), key("two"));
+        assert_eq!(key("one"), key("one"));
+    }
 }

@@ -9,6 +9,8 @@ pub struct Table {
     pub header: Vec<String>,
     /// As many cells each as the header has.
     pub rows: Vec<Vec<String>>,
+    /// How many columns are text, from the left; the others are numbers.
+    pub text: usize,
 }
 
 impl Table {
@@ -18,6 +20,7 @@ impl Table {
             caption: caption.into(),
             header: header.iter().map(|&name| name.to_owned()).collect(),
             rows: Vec::new(),
+            text: 1,
         }
     }
 
@@ -38,7 +41,7 @@ impl Table {
         String::from_utf8_lossy(&bytes).into_owned()
     }
 
-    /// As Markdown: the first column is text, the others are numbers and stand right.
+    /// As Markdown; numbers stand right.
     #[must_use]
     pub fn markdown(&self) -> String {
         let line = |cells: &[String]| {
@@ -47,7 +50,7 @@ impl Table {
         };
         let rule = self.header.iter().enumerate();
         let rule: Vec<String> = rule
-            .map(|(index, _)| if index == 0 { "---" } else { "--:" }.to_owned())
+            .map(|(index, _)| if index < self.text { "---" } else { "--:" }.to_owned())
             .collect();
         let rows: String = self.rows.iter().map(|row| line(row)).collect();
         format!("{}{}{rows}", line(&self.header), line(&rule))

@@ -1,5 +1,6 @@
 //! Templates that several experiments ask for, trained once.
 
+use super::PROTOCOL;
 use super::bench::Bench;
 use super::error::ExperimentError;
 use super::subject::Subject;
@@ -22,8 +23,14 @@ pub(super) fn template(
     let folder = bench.out.join("templates");
     let name = subject.key().replace('/', "-");
     let version = env!("CARGO_PKG_VERSION");
-    let path = folder.join(format!("{name}-{version}-{}.cobra", bench.seed));
-    if !bench.fresh
+    let path = folder.join(format!("{name}-{version}-{PROTOCOL}-{}.cobra", bench.seed));
+    let written = |path| {
+        bench
+            .written
+            .lock()
+            .is_ok_and(|written| written.contains(path))
+    };
+    if (!bench.fresh || written(&path))
         && let Ok(bytes) = std::fs::read(&path)
         && Template::from_bytes(&bytes).is_ok()
     {
@@ -39,6 +46,9 @@ pub(super) fn template(
         source,
     })?;
     write_whole(&path, &trained)?;
+    if let Ok(mut written) = bench.written.lock() {
+        written.insert(path);
+    }
     Ok(trained)
 }
 

@@ -9,6 +9,9 @@ pub(crate) struct Axis<'a> {
     logarithmic: bool,
 }
 
+/// More steps than this are no axis.
+const MOST_STEPS: f64 = 40.0;
+
 impl<'a> Axis<'a> {
     /// From the first of `ticks` to the last, and `beyond` that share of it on both sides.
     pub(crate) fn linear(label: &'a str, ticks: &[f64], beyond: f64) -> Self {
@@ -18,6 +21,30 @@ impl<'a> Axis<'a> {
     /// As [`Axis::linear`], in powers of ten; `ticks` are numbers above 0.
     pub(crate) fn logarithmic(label: &'a str, ticks: &[f64], beyond: f64) -> Self {
         Self::new(label, ticks, beyond, true)
+    }
+
+    /// Multiples of `step` around all `values`, no farther than `limits`.
+    pub(crate) fn steps(
+        label: &'a str,
+        values: impl Iterator<Item = f64>,
+        step: f64,
+        limits: (f64, f64),
+    ) -> Self {
+        let values = values.filter(|value| value.is_finite());
+        let (low, high) = values.fold((limits.1, limits.0), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
+        let (low, high) = (low.max(limits.0), high.min(limits.1));
+        let (low, high) = if low <= high { (low, high) } else { limits };
+        let (first, last) = (
+            (low / step).floor(),
+            (high / step).ceil().max((low / step).floor() + 1.0),
+        );
+        let count = (last - first).min(MOST_STEPS) as i32;
+        let ticks: Vec<f64> = (0..=count)
+            .map(|index| (first + f64::from(index)) * step)
+            .collect();
+        Self::linear(label, &ticks, 0.03)
     }
 
     /// A place for each name, the first one highest.
@@ -58,7 +85,13 @@ impl<'a> Axis<'a> {
         let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
             (low.min(value), high.max(value))
         });
-        let (low, high) = if low < high { (low, high) } else { (0.1, 1.0) };
+        let (low, high) = if low < high {
+            (low, high)
+        } else if low.is_finite() {
+            (low / 1.5, low * 1.5)
+        } else {
+            (0.1, 1.0)
+        };
         let powers = low.log10().floor() as i32..=high.log10().ceil() as i32;
         let wide = powers.end() - powers.start() > 3;
         let digits: &[f64] = if wide { &[1.0] } else { &[1.0, 2.0, 5.0] };
@@ -122,7 +155,20 @@ mod tests {
             texts(&[0.02, 500.0]),
             ["0.01", "0.1", "1", "10", "100", "1000"]
         );
+        assert_eq!(texts(&[3.0]), ["2", "5"]);
         assert_eq!(texts(&[f64::INFINITY, 0.0]), ["0.1", "0.2", "0.5", "1"]);
+    }
+
+    #[test]
+    fn steps_hold_all_values_and_keep_to_the_limits() {
+        let texts = |values: &[f64]| -> Vec<String> {
+            let axis = Axis::steps("", values.iter().copied(), 5.0, (0.0, 100.0));
+            axis.ticks.into_iter().map(|tick| tick.1).collect()
+        };
+        assert_eq!(texts(&[84.0, 99.9]), ["80", "85", "90", "95", "100"]);
+        assert_eq!(texts(&[90.0]), ["90", "95"]);
+        assert_eq!(texts(&[f64::NAN]).len(), 21);
+        assert_eq!(texts(&[-1e300, 99.0]).len(), 21);
     }
 
     #[test]

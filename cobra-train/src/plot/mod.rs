@@ -70,6 +70,9 @@ pub(crate) struct Page<'a> {
     pub(crate) panel: (u32, u32),
 }
 
+/// Room for a title.
+const LEAST_WIDTH: u32 = 760;
+
 /// An entry of the legend is so wide.
 const ENTRY: i32 = 270;
 
@@ -88,7 +91,7 @@ impl Page<'_> {
     fn onto(&self, text: &mut String, panels: &[Panel<'_>]) -> Drawn {
         let columns = self.columns.clamp(1, panels.len().max(1));
         let rows = panels.len().div_ceil(columns).max(1);
-        let width = columns as u32 * self.panel.0 + MARGIN as u32 + 14;
+        let width = (columns as u32 * self.panel.0 + MARGIN as u32 + 14).max(LEAST_WIDTH);
         let beside = (((width as i32 - MARGIN) / ENTRY).max(1) as usize).min(self.legend.len());
         let legend = LEGEND_ROW * self.legend.len().div_ceil(beside.max(1)) as i32;
         let height = rows as u32 * self.panel.1 + (HEADING + legend + 20) as u32;

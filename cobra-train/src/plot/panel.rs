@@ -7,7 +7,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 /// What stands in a panel, in the axes' numbers.
 pub(crate) enum Item {
-    /// Values of one kind, in the order in which a line joins them.
+    /// Values of one kind, in the order in which a line joins them; what is no number is left out.
     Series(Look, Vec<(f64, f64)>),
     /// A line across at a height, with what it says at its right end.
     Rule(Look, f64, String),
@@ -48,7 +48,10 @@ impl Panel<'_> {
         for item in &self.items {
             match item {
                 Item::Series(look, values) => {
-                    let places: Vec<(i32, i32)> = values.iter().map(|value| at(*value)).collect();
+                    let finite = values
+                        .iter()
+                        .filter(|(x, y)| x.is_finite() && y.is_finite());
+                    let places: Vec<(i32, i32)> = finite.map(|value| at(*value)).collect();
                     look.join(page, &places)?;
                     for place in places {
                         look.mark(page, place)?;

@@ -28,6 +28,9 @@ const NEAREST: f64 = 1e-6;
 /// [`solve_pnp_in_space`]'s.
 #[must_use]
 pub fn solve_pnp(camera: &Camera, correspondences: &[Correspondence]) -> Option<Isometry3<f64>> {
+    if correspondences.len() < 3 {
+        return None;
+    }
     let seen = rays(camera, correspondences);
     let starts = [sqpnp(&seen), from_afar(&seen)];
     let camera = camera.to_matrix().map(f64::from);

@@ -19,6 +19,8 @@ pub struct Coverage {
     /// Percent of the surface with a residual of at most τ: of the object's where there is one, else what the
     /// template says that training found.
     pub covered: Option<f64>,
+    /// The same as the template says that training found it.
+    pub trained: Option<f64>,
     /// τ in millimetres: a hundredth of the bounding sphere's radius.
     pub tau_mm: f64,
     /// What was measured on the object.
@@ -77,10 +79,12 @@ impl Coverage {
     ) -> Result<(Self, Option<Vec<f64>>), ScoreError> {
         let millimetres = f64::from(template.unit().millimetres());
         let tau = TAU * f64::from(template.radius());
+        let quality = template.quality();
+        let trained = quality.map(|quality| 100.0 * f64::from(quality.covered));
         let Some((object, points)) = object else {
-            let quality = template.quality();
             let alone = Self {
-                covered: quality.map(|quality| 100.0 * f64::from(quality.covered)),
+                covered: trained,
+                trained,
                 tau_mm: tau * millimetres,
                 own: None,
             };
@@ -120,6 +124,7 @@ impl Coverage {
         };
         let coverage = Self {
             covered: Some(evaluation.covered),
+            trained,
             tau_mm: tau * millimetres,
             own: Some(own),
         };

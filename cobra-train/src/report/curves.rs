@@ -102,7 +102,8 @@ pub fn read_curves(
                 let found = text.chars().take(20).collect();
                 return Err(ReadCurvesError::NoCurve { path, found });
             }
-            if !text.contains(&expected) {
+            // Not "110 right" for "10 right".
+            if !text.contains(&format!(" {expected}")) && !text.contains(&format!(">{expected}")) {
                 return Err(ReadCurvesError::OtherEstimates {
                     path,
                     expected: expected.clone(),

@@ -27,6 +27,7 @@ pub(super) fn verdict(data: &ReportData) -> Verdict {
         None => "What it covers of the surface is not known.".to_owned(),
     };
     let sentences = [
+        other_object(coverage),
         open(data),
         coverage.own.as_ref().map(|own| off_surface(coverage, own)),
         Some(thresholds(data)),
@@ -36,6 +37,20 @@ pub(super) fn verdict(data: &ReportData) -> Verdict {
         headline,
         sentences: sentences.into_iter().flatten().collect(),
     }
+}
+
+/// More percentage points than this between training and a page are not chance.
+const OTHER_OBJECT: f64 = 5.0;
+
+/// A doubt whether the mesh is the template's.
+fn other_object(coverage: &Coverage) -> Option<String> {
+    let (covered, trained) = (coverage.covered?, coverage.trained?);
+    (trained - covered > OTHER_OBJECT).then(|| {
+        format!(
+            "Training found {} covered: is this the mesh that the template was trained from, in its unit and frame?",
+            share(trained)
+        )
+    })
 }
 
 /// Percent, never rounded to all or to nothing.
@@ -128,14 +143,16 @@ fn ambiguities(data: &ReportData) -> String {
                 .found
                 .iter()
                 .filter(|found| found.views == report.views);
+            let everywhere = match everywhere.count() {
+                0 => String::new(),
+                count => format!(", {count} of them in every view"),
+            };
+            let kinds = match report.found.len() {
+                1 => "One kind of wrong pose scores".to_owned(),
+                count => format!("{count} kinds of wrong poses score"),
+            };
             format!(
-                "{} of wrong poses score as well as the right one, {} of them in every view; up to {worst:.1} mm of \
-                 ADD away.",
-                match report.found.len() {
-                    1 => "One kind".to_owned(),
-                    count => format!("{count} kinds"),
-                },
-                everywhere.count()
+                "{kinds} as well as the right one{everywhere}; up to {worst:.1} mm of ADD away."
             )
         }
     }

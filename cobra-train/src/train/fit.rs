@@ -16,6 +16,9 @@ use rayon::prelude::*;
 /// and the exact process is, but for `budget: None`, what the compressed one is compared with.
 const LARGEST_CHART: usize = 1500;
 
+/// What the step is called, to whoever follows progress.
+pub(crate) const FITTING: &str = "fitting components";
+
 pub(super) fn fit_all(
     points: &[Point3<f64>],
     patches: &[Patch],
@@ -43,7 +46,7 @@ pub(super) fn fit_all(
             kernel: Kernel::RationalQuadratic(Exponent::One | Exponent::Half),
         }
     );
-    progress.start("fitting components", patches.len() as u64);
+    progress.start(FITTING, patches.len() as u64);
     let fitted = patches
         .par_iter()
         .enumerate()

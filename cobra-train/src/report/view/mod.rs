@@ -280,7 +280,7 @@ fn of_mesh(mesh: &Mesh, diameter: f64, unit: &str) -> Surface {
     if given > MOST_TRIANGLES {
         let merged = merge::merged(mesh, diameter, MOST_TRIANGLES);
         let remark = format!(
-            "{} triangles in the place of the mesh's {}: vertices nearer than {} {unit} to one another \
+            "{} triangles in the place of the mesh's {}: vertices in the same cell of a grid of {} {unit} \
              are one of them.",
             grouped(merged.triangles.len() as u64),
             grouped(given as u64),
