@@ -103,7 +103,8 @@ pub fn read_curves(
                 return Err(ReadCurvesError::NoCurve { path, found });
             }
             // Not "110 right" for "10 right".
-            if !text.contains(&format!(" {expected}")) && !text.contains(&format!(">{expected}")) {
+            let alone = |at: usize| !text[..at].ends_with(|c: char| c.is_ascii_digit());
+            if !text.match_indices(&expected).any(|(at, _)| alone(at)) {
                 return Err(ReadCurvesError::OtherEstimates {
                     path,
                     expected: expected.clone(),
