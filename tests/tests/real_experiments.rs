@@ -14,7 +14,7 @@ fn the_quick_experiments_give_the_committed_numbers_again() {
     let data = Data::read(&data).unwrap();
     let out = tempfile::tempdir().unwrap();
     let bench = Bench::new(&data, out.path().to_owned(), 0, false, &Silent);
-    for experiment in [Experiment::Scatter, Experiment::Delta, Experiment::Kdtree] {
+    for experiment in [Experiment::Scatter, Experiment::Kdtree] {
         let found = experiment.run(&bench).unwrap().numbers;
         let committed = read(experiment.name());
         assert_eq!(found.rows.len(), committed.len(), "{}", experiment.name());
