@@ -27,17 +27,16 @@ need_npm() {
 viewer_is_built() {
     local built
     built=$(mkdir -p "$target_dir/browser" && cd "$target_dir/browser" && pwd)/viewer.min.js
-    (cd "$browser_viewer" && node build.mjs "$built") &&
-        cmp "$built" "$browser_viewer/viewer.min.js" || {
-        echo "$browser_viewer/viewer.min.js is not what its sources make: npm ci && npm run build there" >&2
-        return 1
-    }
+    (cd "$browser_viewer" && node build.mjs "$built") || return
+    cmp "$built" "$browser_viewer/viewer.min.js" && return
+    echo "$browser_viewer/viewer.min.js is not what its sources make: npm ci && npm run build there" >&2
+    return 1
 }
 
 # Of the bracket with its mesh and without, and of a real object where there is one. Sets `pages`.
 make_pages() {
     local folder=$1
-    cargo run --quiet --release --locked --package cobra-tests --example write-bracket >"$folder/bracket.obj" &&
+    example write-bracket >"$folder/bracket.obj" &&
         cobra_command train "$folder/bracket.obj" -o "$folder/bracket.cobra" --quiet >/dev/null &&
         cobra_command report "$folder/bracket.cobra" --quiet --mesh "$folder/bracket.obj" \
             -o "$folder/with-mesh.html" &&
@@ -76,6 +75,7 @@ part_browser() {
         skip "the page of cobra report in a browser: no Chromium, and apt cannot install it"
         return
     fi
+    need_programs
     name="the page of cobra report in $(basename "$browser")"
     step "$name"
     if look_at_pages; then pass; else fail "$name"; fi

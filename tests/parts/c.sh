@@ -7,9 +7,9 @@ c_example=cobra-infer-ffi/examples/score
 c_golden=tests/golden/agreement
 
 need_arm() {
-    command -v arm-none-eabi-gcc >/dev/null && command -v qemu-system-arm >/dev/null &&
-        [ -f "$(arm-none-eabi-gcc -print-file-name=libc.a)" ] && return
-    apt_install gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
+    need_qemu || return
+    command -v arm-none-eabi-gcc >/dev/null && [ -f "$(arm-none-eabi-gcc -print-file-name=libc.a)" ] && return
+    apt_install gcc-arm-none-eabi libnewlib-arm-none-eabi
 }
 
 c_check() {
@@ -94,8 +94,7 @@ c_header() {
 
 # A template for which no scorer of the default build has room.
 c_crowded() {
-    cargo run --quiet --package cobra-tests --locked --example crowded-template -- 33 \
-        "$c_dir/crowded.cobra"
+    example crowded-template 33 "$c_dir/crowded.cobra"
 }
 
 # A template without a scene of its own has no surface to be checked, and says so.
@@ -134,7 +133,7 @@ c_host() {
 }
 
 c_rust() {
-    cargo run --quiet --package cobra-tests --locked --example print-bits -- \
+    example print-bits \
         "$c_golden/$1.cobra" "$c_dir/crowded.cobra" "$c_golden/$1.points" "$(c_scene "$1").scene" \
         "$(c_scene "$1").image" >"$c_dir/$1.rust" || return
     # Something was scored, on all points and on the sound ones, and both refusals are there.
@@ -211,6 +210,7 @@ part_c() {
     mkdir -p "$target_dir/c"
     c_dir=$(CDPATH='' cd -- "$target_dir/c" && pwd)
     unset COBRA_MAX_COMPONENTS
+    need_programs
 
     c_check "the header is C99 and C++" c_header cc
     c_check "a template with 33 components" c_crowded

@@ -14,11 +14,6 @@ riscv32imafc-unknown-none-elf virt qemu-system-riscv32
 END
 }
 
-need_qemu() {
-    command -v qemu-system-arm >/dev/null && command -v qemu-system-riscv32 >/dev/null && return
-    apt_install qemu-system-arm qemu-system-misc
-}
-
 # Builds one program of the example for one board; `firmware` is then its path.
 # The example is a workspace of its own, with its own lock file and settings.
 firmware_program() {
@@ -157,6 +152,7 @@ part_firmware() {
     rm -rf "$firmware_folder"
     mkdir -p "$firmware_folder"
     : >"$firmware_folder/rows"
+    need_programs
     firmware_check "the firmware's example on this computer" score_on_host
     while read -r target board emulator; do
         if need_bare_metal "$target"; then
@@ -191,7 +187,7 @@ part_firmware() {
         rustc=/usr/bin/rustc
     fi
     # shellcheck disable=SC2086 # empty must vanish
-    firmware_check "the tables of README and docs/BENCHMARKS.md" cargo run --quiet --locked --package cobra-firmware-budget \
-        -- "$firmware_folder" "$("$rustc" --version | cut -d' ' -f1,2)" \
+    firmware_check "the tables of README and docs/BENCHMARKS.md" "$target_dir/debug/cobra-firmware-budget" \
+        "$firmware_folder" "$("$rustc" --version | cut -d' ' -f1,2)" \
         ${write_tables:+--write}
 }

@@ -32,6 +32,33 @@ apt_install() {
     apt_get install "$@" 2>/dev/null || { apt_get update && apt_get install "$@"; }
 }
 
+# apt_unpack FOLDER PREFIX PACKAGE...: for packages that apt would install only in exchange for others, as
+# Debian's QEMU for disk tools of a later release. Those whose names begin with PREFIX are unpacked into
+# the folder and change nothing on the machine; what else they take is installed.
+apt_unpack() {
+    local folder=$1 prefix=$2 all own others package
+    shift 2
+    command -v dpkg >/dev/null || return
+    all=$(apt-get -s --no-install-recommends install "$@" 2>/dev/null | sed -n 's/^Inst \([^ ]*\) .*/\1/p')
+    [ -n "$all" ] || return
+    own=$(echo "$all" | grep "^$prefix") || return
+    others=$(echo "$all" | grep -v "^$prefix") || true
+    # shellcheck disable=SC2086 # a list of words
+    [ -z "$others" ] || apt_install $others || return
+    # shellcheck disable=SC2086
+    step "unpacking" $own
+    rm -rf "$folder"
+    mkdir -p "$folder"
+    (
+        cd "$folder" || exit
+        # shellcheck disable=SC2086
+        limited 300 apt-get -qq -o APT::Sandbox::User=root download $own >/dev/null || exit
+        for package in *.deb; do
+            dpkg -x "$package" . && rm "$package" || exit
+        done
+    )
+}
+
 need_toolchain() {
     # rustup adds itself to login shells only, and CI may run another.
     local cargo_bin=${CARGO_HOME:-${HOME-}/.cargo}/bin
@@ -63,6 +90,21 @@ need_lints() {
     else
         apt_install rust-web-clippy rustfmt-web || true
     fi
+}
+
+# The emulators of whole boards.
+need_qemu() {
+    local unpacked
+    mkdir -p "$target_dir/qemu"
+    unpacked=$(cd "$target_dir/qemu" && pwd)/usr/bin
+    PATH=$PATH:$unpacked
+    have_qemu && return
+    apt_install qemu-system-arm qemu-system-misc && have_qemu && return
+    apt_unpack "$target_dir/qemu" qemu- qemu-system-arm qemu-system-misc && have_qemu
+}
+
+have_qemu() {
+    qemu-system-arm --version >/dev/null 2>&1 && qemu-system-riscv32 --version >/dev/null 2>&1
 }
 
 host_target() {

@@ -21,10 +21,6 @@ find_object() {
     object_mesh=$(cd "$(dirname "$object_mesh")" && pwd)/model.ply
 }
 
-cobra_command() {
-    cargo run --quiet --release --locked --package cobra-train --bin cobra -- "$@"
-}
-
 # object_program FOLDER LOG: runs what was built last where its files are.
 object_program() {
     if ! (cd "$1" && emulate qemu-system-arm "$objects_board" "$firmware") >"$2"; then
@@ -43,10 +39,8 @@ measure_object() {
     cobra_command train "$object_mesh" -o "$folder/trained.cobra" --quiet "$@" >/dev/null &&
         cobra_command eval "$folder/trained.cobra" --mesh "$object_mesh" --quiet \
             --json "$firmware_folder/$name.json" >/dev/null &&
-        cargo run --quiet --release --locked --package cobra-tests --example object-points -- \
-            "$folder/trained.cobra" "$object_mesh" "$folder" &&
-        cargo run --quiet --release --locked --package cobra-tests --example object-scene -- \
-            "$folder/trained.cobra" "$folder" &&
+        example object-points "$folder/trained.cobra" "$object_mesh" "$folder" &&
+        example object-scene "$folder/trained.cobra" "$folder" &&
         firmware_program "$objects_target" "$objects_board" object || return
     object_program "$folder" "$firmware_folder/$name.object" &&
         firmware_program "$objects_target" "$objects_board" object-depth &&

@@ -19,7 +19,8 @@ use std::path::PathBuf;
                   --fresh begins anew.\n\nData: meshes in DIR/meshes/CLASS, in DIR/CLASS (there also in folders of objects, as in ShapeNetCore), or in \
                   DIR itself. \
                   Classes of the paper are planes, chairs, sofas and screwdrivers; DIR/screwdriver beside \
-                  DIR/meshes holds the paper's own screwdriver.\n\nExamples:\n  cobra experiment shape --data \
+                  DIR/meshes holds the paper's own screwdriver. \
+                  Each object is scaled into a sphere of unit radius first: the unit of every length.\n\nExamples:\n  cobra experiment shape --data \
                   data --out results\n  cobra experiment all --data data --out results\n  cobra experiment \
                   scatter"
 )]

@@ -75,14 +75,14 @@ fn the_number_of_threads_changes_no_byte() {
     let folder = tempfile::tempdir().unwrap();
     let of_threads = ["1", "3"].map(|threads| {
         let out = folder.path().join(threads);
-        let words = ["experiment", "noise", "--out", out.to_str().unwrap()];
+        let words = ["experiment", "scatter", "--out", out.to_str().unwrap()];
         let done = command()
             .args(words)
             .env("RAYON_NUM_THREADS", threads)
             .output()
             .unwrap();
         assert!(done.status.success());
-        ["noise.csv", "noise.svg"].map(|name| fs::read(out.join(name)).unwrap())
+        ["scatter.csv", "scatter.svg"].map(|name| fs::read(out.join(name)).unwrap())
     });
     assert!(of_threads[0] == of_threads[1]);
 }
@@ -95,7 +95,7 @@ fn an_object_that_fails_is_named_and_the_others_are_measured() {
     let outcome = run(["experiment", "correlation", "--data", data, "--out", out]);
     assert_eq!(outcome.code, Some(3), "{outcome:?}");
     assert!(outcome.stderr.contains("rubbish.ply"), "{outcome:?}");
-    assert!(outcome.stderr.contains("1 object failed"), "{outcome:?}");
+    assert!(outcome.stderr.contains("1 result failed"), "{outcome:?}");
     let csv = fs::read_to_string(Path::new(out).join("correlation.csv")).unwrap();
     assert_eq!(csv.lines().count(), 2, "{csv}");
     assert!(csv.contains("wedges,wedge,936,"), "{csv}");
