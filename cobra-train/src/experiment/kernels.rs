@@ -7,6 +7,7 @@ use super::subject::Subject;
 use super::table::{Table, mean};
 use super::templates::{NAME, trained};
 use super::{Experiment, paper, shape};
+use crate::digits::grouped;
 use crate::evaluate::{ShapeMetrics, evaluate};
 use crate::gp::PriorMean;
 use crate::plot::{Axis, Colour, Item, Look, Mark, Page, Panel};
@@ -229,9 +230,10 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         title: "Kernels",
         protocol: format!(
             "{COMPONENTS} reference points an object, the same for all kernels, placed by k-means; 10,000 \
-             training and {POINTS} fresh test points; hyperparameters by L-BFGS-B on 300 points of a component. \
+             training and {points} fresh test points; hyperparameters by L-BFGS-B on 300 points of a component. \
              At most {MODELS} objects of a class, as in the paper. It does not say which Matérn (GPyTorch's \
-             default is 5/2), nor whether its rational quadratic's exponent was free."
+             default is 5/2), nor whether its rational quadratic's exponent was free.",
+            points = grouped(POINTS as u64)
         ),
         numbers,
         tables,
@@ -286,7 +288,7 @@ fn ranking(mean_f: impl Fn(usize) -> f64) -> String {
     }
 }
 
-/// The kernel of the largest mean F, in words.
+/// The kernel of the largest mean F in the paper's own form, in words.
 fn best(mean_f: impl Fn(usize) -> f64) -> String {
     let order = |a: &usize, b: &usize| mean_f(*a).total_cmp(&mean_f(*b));
     let best = (0..KERNELS.len()).max_by(order).unwrap_or(0);
@@ -296,7 +298,7 @@ fn best(mean_f: impl Fn(usize) -> f64) -> String {
         format!("No kernel is above the rational quadratic's {f:.1}.")
     } else {
         format!(
-            "The best of all forms is {name}, {f:.1} where the rational quadratic has {quadratic:.1}."
+            "Best of all in that form is {name}: {f:.1} where the rational quadratic has {quadratic:.1}."
         )
     }
 }

@@ -8,6 +8,7 @@ use super::shape::{SIGMA_POINTS, assignment};
 use super::subject::{Subject, classes};
 use super::table::{Table, mean};
 use super::templates::{NAME, trained};
+use crate::digits::grouped;
 use crate::evaluate::evaluate;
 use crate::plot::{Axis, Colour, Item, Look, Mark, Page, Panel};
 use crate::random::Purpose;
@@ -164,9 +165,10 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         experiment: Experiment::ReferencePoints,
         title: "Reference points",
         protocol: format!(
-            "Rational quadratic, α = ½, on the chord, exact; {POINTS} fresh test points; at most {MODELS} objects \
+            "Rational quadratic, α = ½, on the chord, exact; {points} fresh test points; at most {MODELS} objects \
              of a class. k-means' and EM's components speak everywhere, the nearest for a point; automatic ones \
-             where they are verified, and what none may speak for is missing in what is compared."
+             where they are verified, and what none may speak for is missing in what is compared.",
+            points = grouped(POINTS as u64)
         ),
         numbers,
         tables: vec![table],
