@@ -6,14 +6,12 @@
 use cobra_infer::{Assignment, Exponent, Kernel, Metric, Model, Template};
 use cobra_train::evaluate::{evaluate, evaluation_points};
 use cobra_train::gp::{AdamOptions, NOISE_FLOOR, Optimiser, PAPER_NOISE_FLOOR, PriorMean, Subset};
-use cobra_train::progress::Progress;
+use cobra_train::progress::Stopwatch;
 use cobra_train::surface::{Geometry, read_mesh};
-use cobra_train::train::{TrainOptions, train};
+use cobra_train::train::{FITTING, TrainOptions, train};
 use nalgebra::Point3;
 use std::error::Error;
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::time::{Duration, Instant};
 
 /// As many as `cobra eval` measures on.
 const POINTS: usize = 30_000;
@@ -73,7 +71,7 @@ fn measure(
     options: &TrainOptions,
     points: &[Point3<f64>],
 ) -> Result<String, Box<dyn Error>> {
-    let watch = Watch::default();
+    let watch = Stopwatch::new(FITTING);
     let trained = train(object, options, &watch)?;
     let found = evaluate(
         &Template::from_bytes(&trained.bytes)?,
@@ -87,41 +85,9 @@ fn measure(
         found.shape.f_score,
         found.shape.chamfer,
         found.residual.rms,
-        watch.fitting().as_secs_f64(),
+        watch.total().as_secs_f64(),
         mean(searches.clone().map(|l| l.likelihood_per_point).sum()),
         mean(searches.clone().map(|l| l.iterations as f64).sum()),
         searches.filter(|l| l.stop.is_early()).count(),
     ))
-}
-
-/// Times the fitting among the steps of training.
-#[derive(Default)]
-struct Watch(Mutex<(Option<Instant>, Duration)>);
-
-impl Watch {
-    fn fitting(&self) -> Duration {
-        self.0.lock().map(|state| state.1).unwrap_or_default()
-    }
-}
-
-impl Progress for Watch {
-    fn start(&self, name: &str, _: u64) {
-        if let Ok(mut state) = self.0.lock() {
-            state.0 = (name == "fitting components").then(Instant::now);
-        }
-    }
-
-    fn step(&self) {}
-
-    fn warn(&self, message: &str) {
-        eprintln!("{message}");
-    }
-
-    fn finish(&self) {
-        if let Ok(mut state) = self.0.lock()
-            && let Some(started) = state.0.take()
-        {
-            state.1 += started.elapsed();
-        }
-    }
 }

@@ -16,6 +16,7 @@
 //! Texture is invisible to all of it. `docs/AMBIGUITY.md` has the constants and where they come from.
 
 mod cluster;
+mod document;
 mod gauge;
 mod measure;
 mod rotations;
@@ -27,6 +28,7 @@ mod tests;
 mod views;
 mod words;
 
+pub use document::{AmbiguityDocument, AmbiguityEntry, MotionDocument, SCHEMA, StatedSymmetries};
 pub use gauge::Screw;
 pub use slide::{Path, Range};
 

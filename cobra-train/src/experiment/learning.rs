@@ -14,15 +14,13 @@ use crate::gp::{
     negative_log_marginal_likelihood,
 };
 use crate::plot::{Axis, Colour, Item, Look, Mark, Page, Panel};
-use crate::progress::Progress;
+use crate::progress::Stopwatch;
 use crate::random::Purpose;
 use crate::surface::RayCaster;
 use crate::train::{FITTING, TrainOptions, train};
 use cobra_infer::{Assignment, Exponent, Kernel, Template};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::sync::Mutex;
-use std::time::{Duration, Instant};
 
 const POINTS: usize = 30_000;
 
@@ -221,7 +219,7 @@ fn measure(
     options.fit.optimiser = *optimiser;
     options.fit.subset = *subset;
     options.fit.noise_floor = NOISE_FLOOR;
-    let watch = Watch::default();
+    let watch = Stopwatch::new(FITTING);
     let trained =
         train(&mesh.clone().into(), &options, &watch).map_err(|source| ExperimentError::Train {
             object: subject.name.clone(),
@@ -247,7 +245,7 @@ fn measure(
         likelihood: likelihoods.map(mean),
         chamfer: shape.chamfer,
         f_score: shape.f_score,
-        seconds: watch.fitting().as_secs_f64(),
+        seconds: watch.total().as_secs_f64(),
         iterations: mean(iterations),
     })
 }
@@ -262,34 +260,4 @@ fn likelihood(fitted: &FittedGp) -> Option<f64> {
         &fitted.targets,
     );
     Some(found.ok()?.value / fitted.targets.len() as f64)
-}
-
-/// Times the fitting among the steps of training.
-#[derive(Default)]
-struct Watch(Mutex<(Option<Instant>, Duration)>);
-
-impl Watch {
-    fn fitting(&self) -> Duration {
-        self.0.lock().map(|state| state.1).unwrap_or_default()
-    }
-}
-
-impl Progress for Watch {
-    fn start(&self, name: &str, _: u64) {
-        if let Ok(mut state) = self.0.lock() {
-            state.0 = (name == FITTING).then(Instant::now);
-        }
-    }
-
-    fn step(&self) {}
-
-    fn warn(&self, _: &str) {}
-
-    fn finish(&self) {
-        if let Ok(mut state) = self.0.lock()
-            && let Some(started) = state.0.take()
-        {
-            state.1 += started.elapsed();
-        }
-    }
 }

@@ -1,16 +1,11 @@
 //! Ambiguities as `cobra ambiguity --json` writes them.
 //!
-//! Owns what is read of that file and what a page refuses of it; how they are found is
+//! Owns what a page shows of that file and what it refuses; its form, and how they are found, are
 //! [`crate::ambiguity`]'s.
 
-use crate::ambiguity::{Path as Motions, Range, Screw, What};
-use crate::bop::symmetry::Axis;
-use nalgebra::{Isometry3, Point3, UnitVector3, Vector3};
-use serde::{Deserialize, Serialize};
+use crate::ambiguity::{AmbiguityDocument, SCHEMA};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
-
-/// The version of the document that is read.
-const SCHEMA: u32 = 1;
 
 /// A document of more than this share of another diameter is of another object.
 const DIAMETER: f64 = 0.01;
@@ -100,105 +95,6 @@ impl ReadAmbiguityError {
     }
 }
 
-#[derive(Deserialize)]
-struct Document {
-    schema: u32,
-    template: String,
-    diameter_mm: f64,
-    limit_mm: f64,
-    views: usize,
-    candidates: usize,
-    calibrated: bool,
-    ambiguities: Vec<Entry>,
-    conclusion: String,
-}
-
-#[derive(Deserialize)]
-struct Entry {
-    #[serde(flatten)]
-    what: WhatDocument,
-    views: usize,
-    confidence: f64,
-    add_mm: f64,
-    add_s_mm: f64,
-    mssd_mm: f64,
-    stated: Option<bool>,
-}
-
-#[derive(Deserialize)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-enum WhatDocument {
-    Turns {
-        axis: [f64; 3],
-        any: bool,
-        low_degrees: Option<f64>,
-        high_degrees: Option<f64>,
-    },
-    Slides {
-        direction: [f64; 3],
-        low_mm: Option<f64>,
-        high_mm: Option<f64>,
-    },
-    Motion {
-        axis: [f64; 3],
-        angle_degrees: f64,
-        along_mm: f64,
-    },
-}
-
-impl WhatDocument {
-    /// In the words that the command has for it, with lengths in millimetres.
-    fn words(&self) -> String {
-        let axis = |direction: &[f64; 3]| Axis {
-            direction: UnitVector3::new_normalize(Vector3::from(*direction)),
-            offset: Point3::origin(),
-        };
-        let between = |low: Option<f64>, high: Option<f64>| Range::Between {
-            low: low.unwrap_or(0.0),
-            high: high.unwrap_or(0.0),
-        };
-        let what = match self {
-            Self::Turns {
-                axis: about,
-                any,
-                low_degrees,
-                high_degrees,
-            } => What::Path {
-                path: Motions::Turn(axis(about)),
-                range: if *any {
-                    Range::Any
-                } else {
-                    between(
-                        low_degrees.map(f64::to_radians),
-                        high_degrees.map(f64::to_radians),
-                    )
-                },
-            },
-            Self::Slides {
-                direction,
-                low_mm,
-                high_mm,
-            } => What::Path {
-                path: Motions::Slide(axis(direction).direction),
-                range: between(*low_mm, *high_mm),
-            },
-            Self::Motion {
-                axis: about,
-                angle_degrees,
-                along_mm,
-            } => What::Motion {
-                motion: Isometry3::identity(),
-                screw: Screw {
-                    axis: axis(about),
-                    angle: angle_degrees.to_radians(),
-                    along: *along_mm,
-                },
-            },
-        };
-        what.words(1.0)
-    }
-}
-
 /// Reads what was found of the object of this name and diameter.
 ///
 /// # Errors
@@ -221,7 +117,7 @@ pub fn read_ambiguity_report(
         return Err(malformed("found no file, or a very large one".to_owned()));
     }
     let text = std::fs::read_to_string(path).map_err(io)?;
-    let document: Document =
+    let document: AmbiguityDocument =
         serde_json::from_str(&text).map_err(|error| malformed(error.to_string()))?;
     if document.schema != SCHEMA {
         return Err(malformed(format!(
@@ -247,7 +143,7 @@ pub fn read_ambiguity_report(
             .ambiguities
             .iter()
             .map(|entry| ReportedAmbiguity {
-                motion: entry.what.words(),
+                motion: entry.what.what().words(1.0),
                 views: entry.views,
                 confidence: entry.confidence,
                 add_mm: entry.add_mm,

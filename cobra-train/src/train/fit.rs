@@ -17,7 +17,7 @@ use rayon::prelude::*;
 const LARGEST_CHART: usize = 1500;
 
 /// What the step is called, to whoever follows progress.
-pub(crate) const FITTING: &str = "fitting components";
+pub const FITTING: &str = "fitting components";
 
 pub(super) fn fit_all(
     points: &[Point3<f64>],

@@ -18,7 +18,7 @@ mod verify;
 
 pub use draw::SurfaceSampling;
 pub use error::TrainError;
-pub(crate) use fit::FITTING;
+pub use fit::FITTING;
 pub use membership::Overlap;
 pub use options::{BUDGET, MAP_BUDGET, MOST_CHARTS, MeanForm, TrainOptions, Validity};
 pub use place::{PLACEMENTS, ReferencePoints};

@@ -1,10 +1,11 @@
 //! What `cobra ambiguity` says: as JSON, and as a table with what follows from it.
 
 use crate::cli::report::{plural, table};
-use cobra_train::ambiguity::{Ambiguities, Ambiguity, Masks, Path, Range, SearchOptions, What};
+use cobra_train::ambiguity::{
+    Ambiguities, Ambiguity, AmbiguityDocument, AmbiguityEntry, Masks, MotionDocument, SCHEMA,
+    SearchOptions, StatedSymmetries,
+};
 use cobra_train::bop::symmetry::Symmetries;
-use nalgebra::Vector3;
-use serde::Serialize;
 
 /// What was found; the ambiguities' lengths are in the template's unit.
 pub(super) struct Found<'a> {
@@ -18,97 +19,25 @@ pub(super) struct Found<'a> {
     pub(super) ambiguities: &'a Ambiguities,
 }
 
-#[derive(Serialize)]
-pub(super) struct Document<'a> {
-    schema: u32,
-    template: &'a str,
-    diameter_mm: f64,
-    /// Poses of at least this ADD are wrong.
-    limit_mm: f64,
-    views: usize,
-    candidates: usize,
-    step_degrees: f64,
-    masks: &'static str,
-    depth_noise_mm: f64,
-    seed: u64,
-    true_confidence: f64,
-    /// The least confidence that was accepted in some view.
-    accepted_from: f64,
-    calibrated: bool,
-    ambiguities: Vec<Entry>,
-    /// `null` where nothing is known of what a data set states.
-    stated: Option<StatedDocument>,
-    conclusion: String,
-}
-
-#[derive(Serialize)]
-struct Entry {
-    #[serde(flatten)]
-    what: WhatDocument,
-    views: usize,
-    confidence: f64,
-    add_mm: f64,
-    add_s_mm: f64,
-    mssd_mm: f64,
-    mssd_with_symmetries_mm: Option<f64>,
-    stated: Option<bool>,
-}
-
-/// Motions of the object in its own frame: the pose that scores as well is the true one after them.
-#[derive(Serialize)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-enum WhatDocument {
-    /// Turns about a line by any angle, or by those from low to high.
-    Turns {
-        axis: [f64; 3],
-        offset_mm: [f64; 3],
-        any: bool,
-        low_degrees: Option<f64>,
-        high_degrees: Option<f64>,
-    },
-    Slides {
-        direction: [f64; 3],
-        low_mm: Option<f64>,
-        high_mm: Option<f64>,
-    },
-    /// One motion, as a turn about a line with a shift along it, and as R and t.
-    Motion {
-        axis: [f64; 3],
-        offset_mm: [f64; 3],
-        angle_degrees: f64,
-        along_mm: f64,
-        rotation: [f64; 9],
-        translation_mm: [f64; 3],
-    },
-}
-
-#[derive(Serialize)]
-struct StatedDocument {
-    discrete: usize,
-    continuous: usize,
-    /// Of the discrete ones and then the continuous ones: whether shape cannot tell them apart.
-    found: Vec<bool>,
-}
-
 impl Found<'_> {
-    pub(super) fn document(&self) -> Document<'_> {
+    pub(super) fn document(&self) -> AmbiguityDocument {
         let all = self.ambiguities;
-        Document {
-            schema: 1,
-            template: self.template,
+        AmbiguityDocument {
+            schema: SCHEMA,
+            template: self.template.to_owned(),
             diameter_mm: all.diameter * self.millimetres,
             limit_mm: all.limit * self.millimetres,
             views: all.views,
             candidates: all.candidates,
             step_degrees: self.options.spacing().to_degrees(),
-            masks: self.masks(),
+            masks: self.masks().to_owned(),
             depth_noise_mm: self.options.noise * self.millimetres,
             seed: self.options.seed,
             true_confidence: all.truth,
             accepted_from: all.least,
             calibrated: self.calibrated,
             ambiguities: all.found.iter().map(|found| self.entry(found)).collect(),
-            stated: self.symmetries.map(|symmetries| StatedDocument {
+            stated: self.symmetries.map(|symmetries| StatedSymmetries {
                 discrete: symmetries.discrete.len(),
                 continuous: symmetries.continuous.len(),
                 found: all.stated_found.clone(),
@@ -124,41 +53,10 @@ impl Found<'_> {
         }
     }
 
-    fn entry(&self, found: &Ambiguity) -> Entry {
+    fn entry(&self, found: &Ambiguity) -> AmbiguityEntry {
         let mm = self.millimetres;
-        let lengths = |vector: Vector3<f64>| (mm * vector).into();
-        Entry {
-            what: match found.what {
-                What::Path {
-                    path: Path::Turn(axis),
-                    range,
-                } => WhatDocument::Turns {
-                    axis: axis.direction.into_inner().into(),
-                    offset_mm: lengths(axis.offset.coords),
-                    any: range == Range::Any,
-                    low_degrees: range.ends().map(|[low, _]| low.to_degrees()),
-                    high_degrees: range.ends().map(|[_, high]| high.to_degrees()),
-                },
-                What::Path {
-                    path: Path::Slide(direction),
-                    range,
-                } => WhatDocument::Slides {
-                    direction: direction.into_inner().into(),
-                    low_mm: range.ends().map(|[low, _]| mm * low),
-                    high_mm: range.ends().map(|[_, high]| mm * high),
-                },
-                What::Motion { motion, screw } => {
-                    let matrix = motion.rotation.to_rotation_matrix();
-                    WhatDocument::Motion {
-                        axis: screw.axis.direction.into_inner().into(),
-                        offset_mm: lengths(screw.axis.offset.coords),
-                        angle_degrees: screw.angle.to_degrees(),
-                        along_mm: mm * screw.along,
-                        rotation: std::array::from_fn(|i| matrix[(i / 3, i % 3)]),
-                        translation_mm: lengths(motion.translation.vector),
-                    }
-                }
-            },
+        AmbiguityEntry {
+            what: MotionDocument::new(&found.what, mm),
             views: found.views,
             confidence: found.confidence,
             add_mm: mm * found.add,
