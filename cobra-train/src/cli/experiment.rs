@@ -120,7 +120,7 @@ pub(super) fn run(arguments: &ExperimentArguments, terminal: &Terminal) -> Resul
     for experiment in arguments.name.experiments() {
         match experiment.run(&bench) {
             Ok(found) => {
-                let files = found.write(out)?;
+                let files = found.write(out, arguments.seed, &data.words())?;
                 terminal.print(&text(&found))?;
                 let names: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
                 terminal.print(&format!("written: {}\n", names.join(", ")))?;
@@ -142,8 +142,13 @@ pub(super) fn run(arguments: &ExperimentArguments, terminal: &Terminal) -> Resul
     match bench.failures().len() {
         0 => Ok(()),
         count => Err(Failure::BadInput(format!(
-            "{} failed; the results are of the others",
-            plural(count, "result")
+            "{} failed{}",
+            plural(count, "result"),
+            if findings.is_empty() {
+                ""
+            } else {
+                "; the results are of the others"
+            }
         ))),
     }
 }

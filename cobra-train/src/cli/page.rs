@@ -37,7 +37,12 @@ pub(super) fn run(arguments: &ReportArguments, terminal: &Terminal) -> Result<()
     };
     let diameter = f64::from(template.diameter() * template.unit().millimetres());
     let ambiguities = match &arguments.ambiguity {
-        Some(path) => Some(read_ambiguity_report(path, template.name(), diameter)?),
+        Some(path) => Some(read_ambiguity_report(
+            path,
+            template.name(),
+            diameter,
+            calibration.map(|calibration| f64::from(calibration.accept)),
+        )?),
         None => None,
     };
     let object = object(arguments, &template, terminal)?;

@@ -130,6 +130,27 @@ impl<'a> Bench<'a> {
         Ok(rows)
     }
 
+    /// The object that single results are of: the one that the data names for that, or the first of the others whose
+    /// mesh can be read.
+    pub(super) fn shown(&self, experiment: Experiment) -> Result<&'a Subject, ExperimentError> {
+        let first = self.data.shown();
+        let others = self
+            .data
+            .all()
+            .iter()
+            .filter(|one| one.key() != first.key());
+        for subject in std::iter::once(first).chain(others) {
+            match subject.mesh() {
+                Ok(_) => return Ok(subject),
+                Err(error) if error.is_of_object() => {
+                    self.fail(format!("{}: {error}", experiment.name()));
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        Err(ExperimentError::NothingLeft)
+    }
+
     fn fail(&self, line: String) {
         self.progress.warn(&line);
         if let Ok(mut failures) = self.failures.lock() {

@@ -2,6 +2,7 @@
 
 use super::Experiment;
 use super::bench::Bench;
+use super::correlation::protocol;
 use super::error::ExperimentError;
 use super::estimates::{Estimate, Protocol, camera};
 use super::findings::Findings;
@@ -26,7 +27,7 @@ struct Row {
 }
 
 pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
-    let shown = bench.data.shown();
+    let shown = bench.shown(Experiment::Delta)?;
     let (rows, seconds) = bench.of_subjects(Experiment::Delta, &[shown], |subject| {
         of_estimates(
             bench,
@@ -120,10 +121,11 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         experiment: Experiment::Delta,
         title: "Thresholds over δ",
         protocol: format!(
-            "The estimates of `{}` of [Table 2](correlation.md), and Eq. 11 with σ_m = {NOISE} \
+            "The estimates of `{}` of Table 2, and Eq. 11 with σ_m = {NOISE} \
              radii, in the form for the likelihood whose peak is 1.",
             shown.name
         ),
+        elsewhere: format!("The estimates of Table 2. {}", protocol()),
         numbers,
         tables: vec![table],
         remarks: vec![

@@ -15,6 +15,8 @@ pub struct Findings {
     pub title: &'static str,
     /// What was done, in a paragraph.
     pub protocol: String,
+    /// What that leaves to another experiment's paragraph; empty where it leaves nothing.
+    pub elsewhere: String,
     /// Every number, for programs.
     pub numbers: Table,
     /// What there is to read, beside what the paper prints.
@@ -53,15 +55,34 @@ impl Findings {
         text
     }
 
-    /// Writes `NAME.csv`, `NAME.svg` and `NAME.md` into a folder, and tells their names.
+    /// The same for whoever has nothing else of that run, whose seed and data are named.
+    fn alone(&self, seed: u64, data: &str) -> String {
+        let mut text = self.markdown();
+        if !self.elsewhere.is_empty() {
+            text += &format!("\n{}\n", self.elsewhere);
+        }
+        text += &format!(
+            "\nVersion {}, seed {seed}; objects in the data: {data}.\n",
+            env!("CARGO_PKG_VERSION")
+        );
+        text
+    }
+
+    /// Writes `NAME.csv`, `NAME.svg` and `NAME.md` into a folder, and tells their names. Seed and data are the
+    /// run's, the latter in words ([`super::Data::words`]).
     ///
     /// # Errors
     /// [`ExperimentError::Write`].
-    pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, ExperimentError> {
+    pub fn write(
+        &self,
+        folder: &Path,
+        seed: u64,
+        data: &str,
+    ) -> Result<Vec<PathBuf>, ExperimentError> {
         let files = [
             ("csv", self.numbers.csv()),
             ("svg", self.figure.clone()),
-            ("md", self.markdown()),
+            ("md", self.alone(seed, data)),
         ];
         files
             .into_iter()

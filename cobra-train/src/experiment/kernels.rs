@@ -235,6 +235,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
              default is 5/2), nor whether its rational quadratic's exponent was free.",
             points = grouped(POINTS as u64)
         ),
+        elsewhere: String::new(),
         numbers,
         tables,
         remarks,

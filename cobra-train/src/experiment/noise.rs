@@ -2,6 +2,7 @@
 
 use super::Experiment;
 use super::bench::Bench;
+use super::correlation::protocol;
 use super::error::ExperimentError;
 use super::estimates::Protocol;
 use super::findings::Findings;
@@ -30,7 +31,7 @@ const PROTOCOL: Protocol = Protocol {
 };
 
 pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
-    let shown = bench.data.shown();
+    let shown = bench.shown(Experiment::Noise)?;
     let (rows, seconds) = bench.of_subjects(Experiment::Noise, &[shown], |subject| {
         judge_all(bench, subject, &PROTOCOL)
     })?;
@@ -94,14 +95,14 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         table.push(cells);
     }
     let trend = if rises.is_empty() {
-        "The confidence falls with every step of the outlier share and of the outlier noise, as in the paper's \
-         figure."
+        "The confidence falls with every step of the outlier share, and of the outlier noise where there are \
+         outliers, as the paper says."
             .to_owned()
     } else {
         rises.dedup();
         format!(
-            "The confidence falls with most steps of the outlier share and of the outlier noise; it rises in {} of \
-             {} cells: {}.",
+            "The confidence falls with most steps of the outlier share, and of the outlier noise where there are \
+             outliers; it rises in {} of {} cells: {}.",
             rises.len(),
             (SHARES.len() - 1) * SIZES.len(),
             rises.join(", ")
@@ -134,11 +135,12 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
         experiment: Experiment::Noise,
         title: "Confidence over noise",
         protocol: format!(
-            "Simulated estimates of `{}` as for [Table 2](correlation.md), at a distance of 4.5 \
-             radii, for each outlier share and outlier noise {} of them.",
+            "Simulated estimates of `{}`, {} for each outlier share and outlier noise, at a distance of 4.5 radii; else \
+             as those of Table 2.",
             shown.name,
             judged.len() / 42
         ),
+        elsewhere: format!("The estimates of Table 2. {}", protocol()),
         numbers,
         tables: vec![table],
         remarks: vec![trend],

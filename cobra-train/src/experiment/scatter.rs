@@ -2,6 +2,7 @@
 
 use super::Experiment;
 use super::bench::Bench;
+use super::correlation::protocol;
 use super::error::ExperimentError;
 use super::estimates::Protocol;
 use super::findings::Findings;
@@ -22,7 +23,7 @@ const KINDS: [Kind; 2] = [
 const PRINTED: Look = Look::marks(Colour::Vermilion, Mark::Plus);
 
 pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
-    let shown = bench.data.shown();
+    let shown = bench.shown(Experiment::Scatter)?;
     let (rows, seconds) = bench.of_subjects(Experiment::Scatter, &[shown], |subject| {
         judge_all(bench, subject, &Protocol::CORRELATION)
     })?;
@@ -92,18 +93,44 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
     Ok(Findings {
         experiment: Experiment::Scatter,
         title: "Confidence against ADD",
-        protocol: format!(
-            "The estimates of `{}` of [Table 2](correlation.md), one by one.",
-            shown.name
-        ),
+        protocol: format!("The estimates of `{}` of Table 2, one by one.", shown.name),
+        elsewhere: format!("The estimates of Table 2. {}", protocol()),
         numbers,
         tables: vec![table],
-        remarks: vec![
-            "The paper's twelve pictures, of other objects under a σ that it does not print for them, fall from a \
-             confidence of 0.8 to 0.1 as ADD rises from 0.002 to 0.157."
-                .to_owned(),
-        ],
+        remarks: vec![pictures(&judged)],
         figure,
         seconds,
     })
+}
+
+/// What the paper's pictures say beside these estimates.
+fn pictures(judged: &[Judged]) -> String {
+    let least = judged
+        .iter()
+        .map(|j| j.confidence)
+        .fold(f64::INFINITY, f64::min);
+    let below: Vec<(f64, f64)> = paper::SHOWN
+        .into_iter()
+        .filter(|(_, confidence)| *confidence < least)
+        .collect();
+    let from = |value: fn(&(f64, f64)) -> f64| {
+        let of = || below.iter().map(value);
+        (
+            of().fold(f64::INFINITY, f64::min),
+            of().fold(f64::NEG_INFINITY, f64::max),
+        )
+    };
+    let apart = if below.is_empty() {
+        String::new()
+    } else {
+        let ((low, high), (near, far)) = (from(|shown| shown.1), from(|shown| shown.0));
+        format!(
+            ": {} of them, of ADD {near} to {far}, have {low:.2} to {high:.2}, less than any of these estimates, \
+             whose least is {least:.2}",
+            below.len()
+        )
+    };
+    format!(
+        "The paper's twelve pictures are of other objects, under a σ that it does not print for them{apart}."
+    )
 }

@@ -245,6 +245,7 @@ pub(super) fn run(bench: &Bench<'_>) -> Result<Findings, ExperimentError> {
              Table 1 has none: what it prints of one with eight reference points in its table of kernels stands in \
              their place. Its Table 1 says 30,000 points of all metrics, its supplement 250,000 of all but d_C."
         ),
+        elsewhere: String::new(),
         numbers,
         tables: vec![table],
         remarks,

@@ -24,6 +24,10 @@ pub struct AmbiguityReport {
     pub limit_mm: f64,
     /// Whether the template's own threshold said what is accepted.
     pub calibrated: bool,
+    /// The mean confidence of the right poses.
+    pub true_confidence: f64,
+    /// The least confidence that was accepted in some view.
+    pub accepted_from: f64,
     /// Those in most views first.
     pub found: Vec<ReportedAmbiguity>,
     /// What follows, a sentence a line.
@@ -85,6 +89,19 @@ pub enum ReadAmbiguityError {
         /// The diameter there.
         found_mm: f64,
     },
+    /// Another threshold said what is accepted.
+    #[error(
+        "{}: expected ambiguities found {expected}, as the template is now, found those {found}: run cobra \
+         ambiguity again", path.display()
+    )]
+    OtherThreshold {
+        /// The file.
+        path: PathBuf,
+        /// What the template says.
+        expected: String,
+        /// What the file says.
+        found: String,
+    },
 }
 
 impl ReadAmbiguityError {
@@ -95,7 +112,10 @@ impl ReadAmbiguityError {
     }
 }
 
-/// Reads what was found of the object of this name and diameter.
+/// More than rounding between a threshold in a template and in a document.
+const SAME_THRESHOLD: f64 = 1e-5;
+
+/// Reads what was found of the object of this name and diameter, with this threshold if the template has one.
 ///
 /// # Errors
 /// [`ReadAmbiguityError`].
@@ -103,6 +123,7 @@ pub fn read_ambiguity_report(
     path: &Path,
     name: &str,
     diameter_mm: f64,
+    accept: Option<f64>,
 ) -> Result<AmbiguityReport, ReadAmbiguityError> {
     let io = |source| ReadAmbiguityError::Io {
         path: path.to_owned(),
@@ -116,9 +137,9 @@ pub fn read_ambiguity_report(
     if !metadata.is_file() || metadata.len() > MOST_BYTES {
         return Err(malformed("found no file, or a very large one".to_owned()));
     }
-    let text = std::fs::read_to_string(path).map_err(io)?;
+    let text = std::fs::read(path).map_err(io)?;
     let document: AmbiguityDocument =
-        serde_json::from_str(&text).map_err(|error| malformed(error.to_string()))?;
+        serde_json::from_slice(&text).map_err(|error| malformed(error.to_string()))?;
     if document.schema != SCHEMA {
         return Err(malformed(format!(
             "schema {SCHEMA}, found {}",
@@ -134,11 +155,33 @@ pub fn read_ambiguity_report(
             found_mm: document.diameter_mm,
         });
     }
+    let same = match accept {
+        Some(accept) => {
+            document.calibrated && (document.accepted_from - accept).abs() < SAME_THRESHOLD
+        }
+        None => !document.calibrated,
+    };
+    if !same {
+        let threshold = |accept: Option<f64>| {
+            accept.map_or_else(
+                || "without a threshold of the template's".to_owned(),
+                |accept| format!("with the threshold {accept:.4}"),
+            )
+        };
+        let found = document.calibrated.then_some(document.accepted_from);
+        return Err(ReadAmbiguityError::OtherThreshold {
+            path: path.to_owned(),
+            expected: threshold(accept),
+            found: threshold(found),
+        });
+    }
     Ok(AmbiguityReport {
         views: document.views,
         candidates: document.candidates,
         limit_mm: document.limit_mm,
         calibrated: document.calibrated,
+        true_confidence: document.true_confidence,
+        accepted_from: document.accepted_from,
         found: document
             .ambiguities
             .iter()

@@ -1,7 +1,7 @@
 //! Curves of a calibration, as `cobra calibrate --curves` writes them.
 //!
-//! Owns that they are of this template: the estimates that a curve says it is of must be as many as the
-//! template's calibration says.
+//! Owns that they are of this template: a curve must say as many estimates and the same threshold as the
+//! template's calibration.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -57,9 +57,9 @@ pub enum ReadCurvesError {
         /// What it is.
         found: String,
     },
-    /// It is of other estimates than the template's thresholds.
+    /// It is of other estimates than the template's thresholds, or of another threshold.
     #[error(
-        "{}: expected curves of the template's calibration, on {expected}: these are of others", path.display()
+        "{}: expected curves of the template's calibration, on {expected}: these are of others or of another threshold", path.display()
     )]
     OtherEstimates {
         /// The file.
@@ -89,10 +89,11 @@ pub fn read_curves(
     calibration: Option<&Calibration>,
 ) -> Result<Vec<Curve>, ReadCurvesError> {
     let calibration = calibration.ok_or(ReadCurvesError::NotCalibrated)?;
-    let expected = format!(
+    let estimates = format!(
         "{} right and {} wrong estimates",
         calibration.right, calibration.wrong
     );
+    let threshold = format!("accepted from {:.3}", calibration.accept);
     CURVES
         .iter()
         .map(|(name, title)| {
@@ -104,10 +105,11 @@ pub fn read_curves(
             }
             // Not "110 right" for "10 right".
             let alone = |at: usize| !text[..at].ends_with(|c: char| c.is_ascii_digit());
-            if !text.match_indices(&expected).any(|(at, _)| alone(at)) {
+            let same = text.match_indices(&estimates).any(|(at, _)| alone(at));
+            if !same || !text.contains(&threshold) {
                 return Err(ReadCurvesError::OtherEstimates {
                     path,
-                    expected: expected.clone(),
+                    expected: format!("{estimates}, {threshold}"),
                 });
             }
             Ok(Curve {

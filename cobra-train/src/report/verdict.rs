@@ -130,7 +130,12 @@ fn ambiguities(data: &ReportData) -> String {
     match &data.ambiguities {
         None => "Whether poses of this object look alike was not looked at here.".to_owned(),
         Some(report) if report.found.is_empty() => format!(
-            "No wrong pose was found that scores as well as the right one, in {} views.",
+            "No wrong pose was found that {}, in {} views.",
+            if report.calibrated {
+                "the template's threshold accepts"
+            } else {
+                "scores nearly as well as the right one"
+            },
             report.views
         ),
         Some(report) => {
@@ -147,13 +152,18 @@ fn ambiguities(data: &ReportData) -> String {
                 0 => String::new(),
                 count => format!(", {count} of them in every view"),
             };
-            let kinds = match report.found.len() {
-                1 => "One kind of wrong pose scores".to_owned(),
-                count => format!("{count} kinds of wrong poses score"),
+            let count = report.found.len();
+            let (kinds, verb) = match count {
+                1 => ("One kind of wrong pose".to_owned(), ["is", "scores"]),
+                _ => (format!("{count} kinds of wrong poses"), ["are", "score"]),
             };
-            format!(
-                "{kinds} as well as the right one{everywhere}; up to {worst:.1} mm of ADD away."
-            )
+            let [is, scores] = verb;
+            let what = if report.calibrated {
+                format!("{is} accepted by the template's threshold")
+            } else {
+                format!("{scores} nearly as well as the right one")
+            };
+            format!("{kinds} {what}{everywhere}; up to {worst:.1} mm of ADD away.")
         }
     }
 }

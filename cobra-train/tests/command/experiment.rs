@@ -101,6 +101,15 @@ fn an_object_that_fails_is_named_and_the_others_are_measured() {
     assert!(csv.contains("wedges,wedge,936,"), "{csv}");
     // A class that the paper does not have has no number of its.
     assert!(outcome.stdout.contains('–'), "{outcome:?}");
+
+    // Of single objects the next one takes its place.
+    let outcome = run(["experiment", "scatter", "--data", data, "--out", out]);
+    assert_eq!(outcome.code, Some(3), "{outcome:?}");
+    assert!(outcome.stderr.contains("rubbish.ply"), "{outcome:?}");
+    let said = fs::read_to_string(Path::new(out).join("scatter.md")).unwrap();
+    for words in ["`wedge`", "500 surface points", "seed 0", "wedges 2"] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
 }
 
 #[test]

@@ -219,7 +219,7 @@ fn curves_and_ambiguities_come_from_the_commands_that_find_them() {
     succeed(scene.arguments(&[&calibrate[..], &stored].concat()));
     let ambiguity = [
         "ambiguity",
-        "@part.cobra",
+        "@stored.cobra",
         "--mesh",
         "@box.obj",
         "--views",
@@ -234,7 +234,14 @@ fn curves_and_ambiguities_come_from_the_commands_that_find_them() {
     let said = text(&page);
     assert!(said.contains("own surface, silhouette"), "{said}");
     assert!(said.contains("turn by 180 degrees about"), "{said}");
-    assert!(said.contains("wrong poses score as well"), "{said}");
+    assert!(
+        said.contains("accepted by the template's threshold"),
+        "{said}"
+    );
+    assert!(
+        said.contains("right poses have a confidence of 0."),
+        "{said}"
+    );
 
     // Of other thresholds, of none, and of another object.
     let page = ["report", "@part.cobra", "-o", "-", "--curves", "@curves"];
@@ -243,22 +250,41 @@ fn curves_and_ambiguities_come_from_the_commands_that_find_them() {
         3,
         &["no thresholds", "cobra calibrate"],
     );
-    let svg = scene
-        .read("curves/roc.svg")
-        .replace("right and", "right or");
-    scene.write("curves/roc.svg", svg);
-    refuse(
-        scene.arguments(&[&report[..], &given].concat()),
-        3,
-        &["roc.svg", "wrong estimates: these are of others"],
-    );
-    let other = scene.read("ambiguity.json").replace("\"box\"", "\"ball\"");
-    scene.write("ambiguity.json", other);
-    refuse(
-        scene.arguments(&[&report[..], &["--ambiguity", "@ambiguity.json"]].concat()),
-        3,
-        &["ambiguity.json", "`box`", "`ball`"],
-    );
+    let roc = scene.read("curves/roc.svg");
+    for (from, to) in [
+        ("right and", "right or"),
+        ("accepted from 0.", "accepted from 1."),
+    ] {
+        assert!(roc.contains(from), "{from}");
+        scene.write("curves/roc.svg", roc.replace(from, to));
+        refuse(
+            scene.arguments(&[&report[..], &given].concat()),
+            3,
+            &["roc.svg", "wrong estimates", "these are of others"],
+        );
+    }
+    let found = scene.read("ambiguity.json");
+    for (from, to, said) in [
+        ("\"box\"", "\"ball\"", ["`box`", "`ball`"]),
+        (
+            "\"calibrated\": true",
+            "\"calibrated\": false",
+            ["with the threshold 0.", "without a threshold"],
+        ),
+        (
+            "\"accepted_from\": 0.",
+            "\"accepted_from\": 0.0",
+            ["with the threshold 0.0", "run cobra ambiguity again"],
+        ),
+    ] {
+        assert!(found.contains(from), "{from}: {found}");
+        scene.write("ambiguity.json", found.replace(from, to));
+        refuse(
+            scene.arguments(&[&report[..], &["--ambiguity", "@ambiguity.json"]].concat()),
+            3,
+            &["ambiguity.json", said[0], said[1]],
+        );
+    }
 }
 
 #[test]

@@ -139,13 +139,23 @@ impl Found<'_> {
         match worst(all.found.iter()) {
             None => sentences.push(format!(
                 "Nothing found: of {} tried in each of {} none came to rest {:.1} mm or more from the truth \
-                 with a confidence like the true pose's.",
+                 with a confidence {}.",
                 plural(all.candidates, "rotation"),
                 plural(all.views, "view"),
-                mm * all.limit
+                mm * all.limit,
+                if self.calibrated {
+                    "that the threshold accepts"
+                } else {
+                    "like the true pose's"
+                }
             )),
             Some(worst) => sentences.push(format!(
-                "Shape cannot tell these apart: ADD up to {:.1} mm, confidences up to {:.2}.",
+                "{}: ADD up to {:.1} mm, confidences up to {:.2}.",
+                if self.calibrated {
+                    "The threshold accepts these too"
+                } else {
+                    "Shape cannot tell these apart"
+                },
                 mm * worst.add,
                 all.found
                     .iter()
@@ -161,7 +171,7 @@ impl Found<'_> {
                     .to_owned(),
                 Some(worst) => format!(
                     "{} of {} not stated in models_info: such poses count as wrong, by up to {:.1} mm of \
-                     ADD, and score as right ones do.",
+                     ADD, and are accepted as right ones are.",
                     unstated().count(),
                     all.found.len(),
                     mm * worst.add

@@ -22,7 +22,9 @@ pub(super) fn section(data: &ReportData) -> Markup {
         section aria-labelledby="components" {
             h2 #components { "Components" }
             p {
-                "σ̂ is the rms residual of a component on points that training did not see: how well it knows its "
+                "σ̂ is the rms residual of a component on points that training did not see"
+                @if content.validity { ", those that it explains to within τ" }
+                ": how well it knows its "
                 "part of the surface. It does not know your camera; scoring adds that with "
                 code.option { "--noise" } "."
             }

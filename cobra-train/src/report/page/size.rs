@@ -8,6 +8,9 @@ use maud::{Markup, html};
 /// As many correspondences as milliseconds are told of.
 const CORRESPONDENCES: f64 = 500.0;
 
+/// The components that the measured scorers have room for.
+const ROOM: usize = 16;
+
 pub(super) fn size(data: &ReportData) -> Markup {
     let content = &data.content;
     let bytes = &content.bytes;
@@ -98,7 +101,10 @@ pub(super) fn budget(data: &ReportData) -> Markup {
                     }
                 } } }))
             p.hint {
-                "Code and stack are of this library on that board, with room for 16 components; the template's "
+                "Code and stack are of this library on that board, with room for " (ROOM) " components"
+                @let components = data.content.components.len();
+                @if components > ROOM { ": for this template's " (components) " a scorer needs more room, and more stack, than is told here" }
+                "; the template's "
                 (grouped(data.content.bytes.total as u64)) " bytes of flash come on top, and it is read where it lies. "
                 @if known {
                     "Instructions are as QEMU executes them, not cycles: the milliseconds take one a cycle at a clock "
