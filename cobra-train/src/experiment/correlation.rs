@@ -237,7 +237,8 @@ fn remarks(classes: &[ClassMeans]) -> Vec<String> {
             }
         ));
     }
-    let below = named(&|(_, printed, means)| printed.is_some_and(|rho| means[0] > rho));
+    let below =
+        named(&|(_, printed, means)| printed.is_some_and(|rho| means[0] > rho && means[1] > rho));
     if !below.is_empty() {
         remarks.push(format!(
             "What the paper prints is not reached, neither by the template nor by the exact distance: {below}."

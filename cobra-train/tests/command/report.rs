@@ -264,6 +264,7 @@ fn curves_and_ambiguities_come_from_the_commands_that_find_them() {
         );
     }
     let found = scene.read("ambiguity.json");
+    assert!(found.contains("The threshold accepts these too"), "{found}");
     for (from, to, said) in [
         ("\"box\"", "\"ball\"", ["`box`", "`ball`"]),
         (
@@ -285,6 +286,14 @@ fn curves_and_ambiguities_come_from_the_commands_that_find_them() {
             &["ambiguity.json", said[0], said[1]],
         );
     }
+
+    // Before the template had a threshold they are those that score like the right pose.
+    let before = found.replace("\"calibrated\": true", "\"calibrated\": false");
+    scene.write("ambiguity.json", before);
+    let page = ["report", "@part.cobra", "-o", "-"];
+    let given = ["--ambiguity", "@ambiguity.json"];
+    let page = succeed(scene.arguments(&[&page[..], &given].concat())).stdout;
+    assert!(text(&page).contains("nearly as well as the right one"));
 }
 
 #[test]
